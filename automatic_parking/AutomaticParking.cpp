@@ -29,7 +29,7 @@ namespace parking
         /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */
         constexpr double BRAKE_USED = 0.95;
         /** Metres that the guard keeps even where the plan keeps nothing: poses are known no better. */
-        constexpr double LEAST_GAP = 0.005;
+        constexpr double MIN_GAP = 0.005;
 
         double yawBetween(const Pose &a, const Pose &b)
         {
@@ -45,7 +45,7 @@ namespace parking
         trajectory.trajectory.validate();
         const Require require("parking");
         require.notNegative("keptClearance", keptClearance);
-        require.notNegative("leastClearance", leastClearance);
+        require.notNegative("minClearance", minClearance);
         require.notNegative("motionClearance", motionClearance);
         require.that(clearanceShare > 0.0 && clearanceShare < 1.0, "clearanceShare", clearanceShare, "between 0 and 1");
         require.positive("replanCrossTrack", replanCrossTrack);
@@ -139,7 +139,7 @@ namespace parking
             {
                 truth = path.start;
                 goal_ = leg.plan.goal = path.end();
-                leg.plan.clearance = leastClearance(world_.footprint(), path);
+                leg.plan.clearance = minClearance(world_.footprint(), path);
             }
             const bool driven = drive(leg, truth, 0);
             result_.legs.push_back(std::move(leg));
@@ -192,7 +192,7 @@ namespace parking
             options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,
-                         std::min(parameters_.leastClearance, parameters_.clearanceShare * leg.plan.clearance));
+                         std::min(parameters_.minClearance, parameters_.clearanceShare * leg.plan.clearance));
             options.trajectory.preferredClearance =
                 std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
             if (leg.plan.path.pieces.size() != leg.plan.arcs.pieces.size())
@@ -223,32 +223,32 @@ namespace parking
         /** The body keeps this much of what \e leg keeps while it stops, and from what appears. */
         double gapOf(const ParkingLeg &leg) const
         {
-            return std::min(parameters_.stopClearance, std::max(LEAST_GAP, 0.5 * leg.plan.clearance));
+            return std::min(parameters_.stopClearance, std::max(MIN_GAP, 0.5 * leg.plan.clearance));
         }
 
         /** Takes back a plan on which the guard would stop the car, as it leads nearer to obstacles than that. */
         void refuseTooNarrow(ParkingPlan &plan) const
         {
-            if (!plan.found || plan.path.pieces.empty() || plan.clearance >= LEAST_GAP ||
-                world_.footprint().clearance(plan.path.start) < LEAST_GAP)
+            if (!plan.found || plan.path.pieces.empty() || plan.clearance >= MIN_GAP ||
+                world_.footprint().clearance(plan.path.start) < MIN_GAP)
                 return;
             plan.found = false;
             plan.message =
                 "the way leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
         }
 
-        /** May the car give a command that needs \e stoppingWay to come to rest again, from where it is now?
+        /** May the car give a command that needs \e stoppingPath to come to rest again, from where it is now?
 
             As long as every command was allowed, the car can stop without touching anything: with the brake in reserve,
             after the delay that commands were seen to have, with wheels that follow as they were seen to, or do not.
             For obstacles that were not there before it stops at once. Where it is nearer than the gap already, which
             errors of measurement and control may cause, the gap does not count; where it is believed to touch
             something, nothing is forbidden: it must be able to leave. */
-        bool canStop(const Path &stoppingWay) const
+        bool canStop(const Path &stoppingPath) const
         {
-            if (enlarged_ && enlarged_->isFree(stoppingWay.start))
-                return isPathFree(*enlarged_, stoppingWay);
-            return !world_.footprint().isFree(stoppingWay.start) || isPathFree(world_.footprint(), stoppingWay);
+            if (enlarged_ && enlarged_->isFree(stoppingPath.start))
+                return isPathFree(*enlarged_, stoppingPath);
+            return !world_.footprint().isFree(stoppingPath.start) || isPathFree(world_.footprint(), stoppingPath);
         }
 
         /** Drives the plan of \e leg; false when it cannot be driven. */
@@ -270,7 +270,7 @@ namespace parking
                 });
             cause_.clear();
             enlarged_ = world_.enlarged(gapOf(leg));
-            loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingWay); });
+            loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingPath); });
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
             try
             {

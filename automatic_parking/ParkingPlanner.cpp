@@ -24,7 +24,7 @@ namespace parking
     namespace
     {
         constexpr double SAME_POSE = 1e-6;  // metres and radians, as for joined()
-        constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWorth
+        constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWeight
 
         /** A step of the ladder: how far to stay away from everything, and how tightly to turn. Metres. */
         struct ClearanceLevel
@@ -68,7 +68,7 @@ namespace parking
                 parameters_(parameters),
                 tuning_(parameters.tuning),
                 world_(world),
-                inStretches_(parameters.wayIn == WayIn::InStretches)
+                inStretches_(parameters.entryMode == EntryMode::InStretches)
             {
             }
 
@@ -93,16 +93,16 @@ namespace parking
                 plan_.gap = best.level.gap;
                 plan_.turningRadius = best.level.radius;
                 smooth(*best.checker);
-                plan_.clearance = leastClearance(world_.footprint(), plan_.path);
+                plan_.clearance = minClearance(world_.footprint(), plan_.path);
                 plan_.message =
                     (plan_.manoeuvre.path.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
                     std::string(", at least ") + centimetres(plan_.clearance) + " from obstacles";
                 return std::move(plan_);
             }
 
-            ReverseParkingResult wayIn()
+            ReverseParkingResult planSlotEntry()
             {
-                onlyWayIn_ = true;
+                onlySlotEntry_ = true;
                 Candidate best = climb();
                 return best.found() ? std::move(best.manoeuvre) : verdict_.value_or(ReverseParkingResult{});
             }
@@ -123,22 +123,22 @@ namespace parking
                     fail(ParkingStatus::InvalidStart, "the car is in collision, or outside, where it starts");
                     return false;
                 }
-                startRoom_ = body.exactClearance(scenario_.start);
-                double goalRoom = -1.0;
+                startClearance_ = body.exactClearance(scenario_.start);
+                double goalClearance = -1.0;
                 for (const Pose &goal : scenario_.goals)
                     if (body.isFree(goal))
                     {
-                        goalRoom = std::max(goalRoom, body.exactClearance(goal));
+                        goalClearance = std::max(goalClearance, body.exactClearance(goal));
                         if (isSamePose(scenario_.start, goal, SAME_POSE))
                             return stay(goal);
                     }
-                if (goalRoom < 0.0)
+                if (goalClearance < 0.0)
                     fail(ParkingStatus::InvalidGoal, "the car is in collision, or outside, at the goal");
-                else if (inStretches_ && startRoom_ <= PlanningParameters::LEAST_GAP_IN_STRETCHES)
+                else if (inStretches_ && startClearance_ <= PlanningParameters::MIN_GAP_IN_STRETCHES)
                     fail(ParkingStatus::InvalidStart, "the start is nearer to an obstacle than the least gap of 4 mm");
                 else
                 {
-                    mostGap_ = std::min(startRoom_, goalRoom);
+                    maxGap_ = std::min(startClearance_, goalClearance);
                     watch_ = Stopwatch();
                     return true;
                 }
@@ -152,7 +152,7 @@ namespace parking
                 plan_.message = "the car stands at the goal already";
                 plan_.goal = goal;
                 plan_.approach = plan_.arcs = plan_.path = Path{scenario_.start, {}};
-                plan_.clearance = startRoom_;
+                plan_.clearance = startClearance_;
                 return false;
             }
 
@@ -178,11 +178,11 @@ namespace parking
             /** Is it time for the last resort? */
             bool isLate() const
             {
-                return isInterrupted() || watch_.seconds() > tuning_.shareForTries * parameters_.timeLimit;
+                return isInterrupted() || watch_.seconds() > tuning_.attemptsShare * parameters_.timeLimit;
             }
 
-            /** A step for WayIn::InStretches: its searches keep up to a tolerance less than asked, and smoothing may
-                use half of the gap. */
+            /** A step for EntryMode::InStretches: its searches keep up to a tolerance less than asked, and smoothing
+               may use half of the gap. */
             ClearanceLevel levelInStretches(double gap, double radius) const
             {
                 return {gap, radius, gap - tuning_.sweepTolerance, 0.5 * gap};
@@ -207,7 +207,7 @@ namespace parking
                 }
                 for (const double each : factor > 1.0 ? std::vector<double>{factor, 1.0} : std::vector<double>{1.0})
                     for (const double gap : gaps)
-                        if (gap == 0.0 || gap < mostGap_)
+                        if (gap == 0.0 || gap < maxGap_)
                             levels.push_back({gap, each * smallest, gap, gap});
                 return levels;
             }
@@ -238,7 +238,8 @@ namespace parking
                 if (inStretches_)
                     return best.stretches > tuning_.manyStretches;
                 // Nothing that a smaller gap allows can be shorter than the bare curve.
-                return level.radius == best.level.radius && leastLength(level.radius) + worth(level.gap) < price(best);
+                return level.radius == best.level.radius &&
+                       minLength(level.radius) + gapCost(level.gap) < totalCost(best);
             }
 
             bool isBetter(const Candidate &next, const Candidate &best) const
@@ -248,21 +249,21 @@ namespace parking
                 if (inStretches_)
                     return static_cast<double>(next.stretches) <=
                            (1.0 - tuning_.minStretchSaving) * static_cast<double>(best.stretches);
-                return price(next) < price(best);
+                return totalCost(next) < totalCost(best);
             }
 
-            double worth(double gap) const
+            double gapCost(double gap) const
             {
-                return parameters_.gapWorth * GAP_UNIT / (gap + tuning_.gapOffset);
+                return parameters_.gapWeight * GAP_UNIT / (gap + tuning_.gapOffset);
             }
 
-            double price(const Candidate &candidate) const
+            double totalCost(const Candidate &candidate) const
             {
-                return candidate.cost + worth(candidate.level.gap);
+                return candidate.cost + gapCost(candidate.level.gap);
             }
 
             /** Length of the shortest curve to any goal, obstacles or not. */
-            double leastLength(double radius) const
+            double minLength(double radius) const
             {
                 const ReedsShepp curves(radius);
                 double least = std::numeric_limits<double>::infinity();
@@ -293,22 +294,22 @@ namespace parking
                 Checkers body = checkers(level);
                 if (!body.search || !body.check)
                     return {};
-                const bool constructed = scenario_.slot && parameters_.wayIn != WayIn::Searched;
+                const bool constructed = scenario_.slot && parameters_.entryMode != EntryMode::Searched;
                 std::vector<ReverseParkingResult> ways;
                 if (constructed)
-                    ways = waysIn(level, body);
+                    ways = slotEntries(level, body);
                 // What was not found out of the slot is not looked for into it.
-                if (ways.empty() && (onlyWayIn_ || (constructed && inStretches_)))
+                if (ways.empty() && (onlySlotEntry_ || (constructed && inStretches_)))
                     return {};
                 Candidate best;
-                if (onlyWayIn_)
+                if (onlySlotEntry_)
                 {
                     best.manoeuvre = ways.front();
                     best.cost = 0.0;
                 }
                 else
                 {
-                    const double most = tuning_.shareOfStartGap * startRoom_;
+                    const double most = tuning_.shareOfStartGap * startClearance_;
                     if (inStretches_ && most < level.gap)
                     {
                         level = levelInStretches(most, level.radius);
@@ -331,7 +332,7 @@ namespace parking
 
             /** The ways into the slot that \e level allows, from P in the aisle to the parked pose: all that are one
                 sweep, otherwise the best in several stretches. */
-            std::vector<ReverseParkingResult> waysIn(const ClearanceLevel &level, const Checkers &body)
+            std::vector<ReverseParkingResult> slotEntries(const ClearanceLevel &level, const Checkers &body)
             {
                 ReverseParkingOptions sweep = parameters_.sweep;
                 sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise the checker has it already
@@ -432,7 +433,7 @@ namespace parking
             /** Without pieces when nothing was found. */
             Path search(const FootprintChecker &checker, const SearchTask &task)
             {
-                ++plan_.tries;
+                ++plan_.attempts;
                 FootprintEnvironment environment(checker, task.bounds, tuning_.sweepTolerance);
                 search::PlanRequest request;
                 request.starts = {task.from};
@@ -492,11 +493,11 @@ namespace parking
             const PlanningTuning &tuning_;
             const ParkingWorld &world_;
             const bool inStretches_;
-            bool onlyWayIn_{false};  // the part at the slot is enough, wherever the car comes from
-            double startRoom_{0.0};  // metres, what the start leaves all round the body
-            double mostGap_{std::numeric_limits<double>::infinity()};  // metres, what start and goal leave
-            Stopwatch watch_;                                          // of the tries
-            std::optional<ReverseParkingResult> verdict_;              // of the first try that found no way in: why not
+            bool onlySlotEntry_{false};   // the part at the slot is enough, wherever the car comes from
+            double startClearance_{0.0};  // metres, what the start leaves all round the body
+            double maxGap_{std::numeric_limits<double>::infinity()};  // metres, what start and goal leave
+            Stopwatch watch_;                                         // of the tries
+            std::optional<ReverseParkingResult> verdict_;             // of the first try that found no way in: why not
             ParkingPlan plan_;
         };
     }  // namespace
@@ -549,10 +550,10 @@ namespace parking
         return Planning(scenario, parameters_, world).plan();
     }
 
-    ReverseParkingResult ParkingPlanner::wayIn(const Scenario &scenario, const ParkingWorld &world) const
+    ReverseParkingResult ParkingPlanner::planSlotEntry(const Scenario &scenario, const ParkingWorld &world) const
     {
         if (!scenario.slot)
             throw Error("scenario " + scenario.name + ": it has no slot");
-        return Planning(scenario, parameters_, world).wayIn();
+        return Planning(scenario, parameters_, world).planSlotEntry();
     }
 }  // namespace parking

@@ -11,7 +11,7 @@ namespace parking
 {
     namespace
     {
-        // How exactly the least clearance is found: the promise of leastClearance().
+        // How exactly the least clearance is found: the promise of minClearance().
         constexpr double CLEARANCE_STEP = 1e-3;   // metres
         constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
     }                                             // namespace
@@ -38,7 +38,7 @@ namespace parking
         }
     }
 
-    double leastClearance(const FootprintChecker &checker, const Path &path)
+    double minClearance(const FootprintChecker &checker, const Path &path)
     {
         double least = checker.exactClearance(path.start);
         Pose from = path.start;

@@ -30,7 +30,7 @@ namespace parking
             bool keepsAway;         // whether it costs to be near obstacles
             double reversePenalty;  // metres' worth, per metre
             int direction;          // 0 for both, 1 for forwards all the way, -1 for reverse
-            std::uint64_t mostExpansions;
+            std::uint64_t maxExpansions;
         };
 
         constexpr std::uint64_t ANY = std::numeric_limits<std::uint64_t>::max();
@@ -60,7 +60,7 @@ namespace parking
             if (!taste.keepsAway)
                 request.parameters.clearanceCost = 0.0;
             request.parameters.approximate = false;
-            request.maxExpansions = taste.mostExpansions;
+            request.maxExpansions = taste.maxExpansions;
             if (interrupted)
                 request.stop = interrupted;
             return request;
@@ -80,7 +80,7 @@ namespace parking
             for (const Path &each : known)
                 fewest = std::min(fewest, each.cusps());
             const double length = path.length();
-            if (fewest < 2 || length > LONGEST || options.mostExpansions == 0)
+            if (fewest < 2 || length > LONGEST || options.maxExpansions == 0)
                 return std::nullopt;
             constexpr Taste HASTY{1.0, 2.5, false, 0.0, 0, ANY};
             search::PlanRequest request = requestFor(HASTY, checker, bounds, path, options, interrupted);
@@ -114,7 +114,7 @@ namespace parking
                 continue;
             search::PlanRequest request = requestFor(taste, checker, bounds, path, options, interrupted);
             if (taste.direction == 0)
-                request.maxExpansions = options.mostExpansions - std::min(options.mostExpansions, expanded);
+                request.maxExpansions = options.maxExpansions - std::min(options.maxExpansions, expanded);
             if (request.maxExpansions == 0)
                 continue;
             search::PlanResult result = search::plan(environment, request);

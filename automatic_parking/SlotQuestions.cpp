@@ -87,12 +87,12 @@ namespace parking
         return problem;
     }
 
-    ReverseParkingResult wayIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot)
+    ReverseParkingResult planSlotEntry(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot)
     {
         if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
             return *verdict;
         const Scenario problem = slotProblem(planner.parameters(), vehicle, slot);
-        return planner.wayIn(problem, ParkingWorld(problem));
+        return planner.planSlotEntry(problem, ParkingWorld(problem));
     }
 
     double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
@@ -107,14 +107,14 @@ namespace parking
         const double least = (parallel ? vehicle.length() : vehicle.width) + 2.0 * planner.parameters().gaps.back();
         const auto fits = [&](const ParkingSlot &size)
         {
-            return wayIntoSlot(planner, vehicle, size).fits();
+            return planSlotEntry(planner, vehicle, size).fits();
         };
         ParkingSlot tried = slot;
         tried.depth.reset();
         tried.lateralOffset = 0.0;
         tried.*dimension = std::max(slot.*dimension, least);
         for (double grown = 0.0; !fits(tried); grown += tuning.growthStep, tried.*dimension += tuning.growthStep)
-            if (grown >= tuning.mostGrowth)
+            if (grown >= tuning.maxGrowth)
                 return std::numeric_limits<double>::infinity();
         // By bisection, as larger slots are never worse.
         double low = least, high = tried.*dimension;

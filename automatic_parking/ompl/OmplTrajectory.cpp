@@ -23,7 +23,7 @@ namespace parking
         constexpr double SHORTEST_PIECE = 1e-7;    // metres; anything shorter is rounding of a curve's formula
         constexpr double PROPAGATION_STEP = 0.05;  // seconds, of planners that use the space
 
-        constexpr unsigned int MOST_STEPS = 20;  // for which they hold a control
+        constexpr unsigned int MAX_STEPS = 20;  // for which they hold a control
 
         using Pair = ob::RealVectorStateSpace::StateType;
         using Controls = oc::RealVectorControlSpace::ControlType;
@@ -112,7 +112,7 @@ namespace parking
         si->setStatePropagator(std::make_shared<BicyclePropagator>(si, vehicle));
         si->setStateValidityChecker([](const ob::State *) { return true; });
         si->setPropagationStepSize(PROPAGATION_STEP);
-        si->setMinMaxControlDuration(1, MOST_STEPS);
+        si->setMinMaxControlDuration(1, MAX_STEPS);
         si->setup();
         return si;
     }

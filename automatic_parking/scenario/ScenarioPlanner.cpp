@@ -167,7 +167,7 @@ namespace parking
         if (!plan.hasPath())
             return HUGE_VAL;
         if (!plan.isDisc)
-            return leastClearance(footprint_, plan.path);
+            return minClearance(footprint_, plan.path);
         double least = HUGE_VAL;
         for (const PathState &state : plan.path.sample(SAMPLING))
             least = std::min(least, circle().clearance(state.pose.x, state.pose.y));

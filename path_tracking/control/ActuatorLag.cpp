@@ -7,11 +7,11 @@ namespace parking
 {
     namespace
     {
-        constexpr double LEAST_ACCELERATION = 0.05;  // m/s^2 that say something
-        constexpr double SHORTEST_LAG = 1e-3;        // seconds; below it there is none
-        constexpr double LONGEST_LAG = 0.5;          // seconds
-        constexpr double GAIN = 0.2;  // share of what one period says that is believed; the first say more
-    }                                 // namespace
+        constexpr double MIN_ACCELERATION = 0.05;  // m/s^2 that say something
+        constexpr double SHORTEST_LAG = 1e-3;      // seconds; below it there is none
+        constexpr double LONGEST_LAG = 0.5;        // seconds
+        constexpr double GAIN = 0.2;               // share of what one period says that is believed; the first say more
+    }                                              // namespace
 
     double unfollowed(double lag, double duration)
     {
@@ -54,7 +54,7 @@ namespace parking
     {
         const double mean = (speed - speedBefore) / duration;
         const double trailing = command - mean;
-        estimator_.learn(duration, command - commandBefore_, trailingBefore_, trailing, LEAST_ACCELERATION);
+        estimator_.learn(duration, command - commandBefore_, trailingBefore_, trailing, MIN_ACCELERATION);
         commandBefore_ = command;
         trailingBefore_ = trailing;
         const double lag = estimator_.lag();

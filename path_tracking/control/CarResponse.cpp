@@ -11,11 +11,11 @@ namespace parking
 {
     namespace
     {
-        constexpr double LEAST_BRAKE = 0.3;    // m/s^2 of commanded deceleration that say something about the brake
+        constexpr double MIN_BRAKE = 0.3;      // m/s^2 of commanded deceleration that say something about the brake
         constexpr double STEADY = 0.15;        // m/s^2 by which it may differ from the period before
         constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less is a broken car
         constexpr double BRAKE_GAIN = 0.4;     // share of what a period says that is believed
-        constexpr double LEAST_TURN = 0.015;   // radians that wheels should have turned by
+        constexpr double MIN_TURN = 0.015;     // radians that wheels should have turned by
         constexpr double HARDLY = 0.05;        // share of it that counts as standing still
     }                                          // namespace
 
@@ -72,7 +72,7 @@ namespace parking
         watchWheels(measurement);
         if (stuck_ == 0)
             steeringLag_.learn(period_, done.steering - last.steering, last.steering - before.steering,
-                               done.steering - measurement.steering, LagEstimator::LEAST_ANGLE);
+                               done.steering - measurement.steering, LagEstimator::MIN_ANGLE);
         learnBrake(measurement);
         if (done.hold)
             driveLag_.hold();
@@ -92,7 +92,7 @@ namespace parking
         const double before = estimator_.measuredSpeed(), sign = before < 0.0 ? -1.0 : 1.0;
         const double told = -sign * done.acceleration, slower = sign * (before - measurement.speed) / period_;
         // A car that comes to rest within the period slows down for a part of it only.
-        if (told < LEAST_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
+        if (told < MIN_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
             std::abs(before) < 1.5 * told * period_)
             return;
         brakeScale_ += BRAKE_GAIN * (std::clamp(slower / told, WEAKEST_BRAKE, 1.0) - brakeScale_);
@@ -105,7 +105,7 @@ namespace parking
         const bool isSure = delay_.isSure();
         const double lag = isSure ? steeringLag_.lag() : 0.0;
         std::size_t delay = isSure ? delay_.periods() : 0;
-        const std::size_t last = isSure ? delay : CommandDelay::MOST;
+        const std::size_t last = isSure ? delay : CommandDelay::MAX_PERIODS;
         double least = expectedTurn(delay, lag), most = least;
         while (++delay <= last)
         {
@@ -113,7 +113,7 @@ namespace parking
             least = std::min(least, turn);
             most = std::max(most, turn);
         }
-        if (least < LEAST_TURN && most > -LEAST_TURN)
+        if (least < MIN_TURN && most > -MIN_TURN)
             return;
         const double expected = std::min(std::abs(least), std::abs(most));
         const double turned = std::abs(measurement.steering - estimator_.measuredSteering());

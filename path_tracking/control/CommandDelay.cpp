@@ -22,9 +22,9 @@ namespace parking
 
     CommandDelay::CommandDelay(double period, double steering, std::size_t periods, bool sure)
       : period_(period),
-        periods_(std::min(periods, MOST)),
+        periods_(std::min(periods, MAX_PERIODS)),
         sure_(sure ? ENOUGH : 0),
-        given_(MOST + 3, Command{0.0, steering, true})
+        given_(MAX_PERIODS + 3, Command{0.0, steering, true})
     {
     }
 
@@ -56,7 +56,7 @@ namespace parking
             if (!now.hold || before.speed == 0.0)
                 error += squared((gained - asked - late * (guess.drive.acceleration() - asked)) / ACCELERATION);
             guess.wheels.learn(period_, now.steering - last.steering, last.steering - before.steering,
-                               now.steering - after.steering, LagEstimator::LEAST_ANGLE);
+                               now.steering - after.steering, LagEstimator::MIN_ANGLE);
             if (now.hold)
                 guess.drive.hold();
             else

@@ -21,15 +21,15 @@ namespace parking
     namespace
     {
         constexpr std::size_t LONGEST_HORIZON = 200;
-        constexpr double MOST_WEIGHT = 1e9;
+        constexpr double MAX_WEIGHT = 1e9;
         constexpr double FUNCTION_TOLERANCE = 1e-5;  // relative gain at which Ceres stops
         constexpr double SETTLED = 1e-4;             // relative gain of a step after which another is not worth it
-        constexpr int MOST_REJECTIONS = 8;           // of steps by the trust region, per working set
+        constexpr int MAX_REJECTIONS = 8;            // of steps by the trust region, per working set
         constexpr double FIRST_RADIUS = 1e4;
         constexpr double LARGEST_COST = 1e30;
         /** Bounds of the trust region between steps, and how it grows from one to the next. It shrinks where a step was
             cut to a limit, which the next working set holds: without growing again it crept to a stop elsewhere. */
-        constexpr double LEAST_RADIUS = 1.0, LARGEST_RADIUS = 1e8, GROWTH = 30.0;
+        constexpr double MIN_RADIUS = 1.0, LARGEST_RADIUS = 1e8, GROWTH = 30.0;
 
         /** A cost with what it was last asked for, so that nobody asks twice. */
         struct Evaluation
@@ -126,7 +126,7 @@ namespace parking
         // Far beyond what makes sense, and far from what squares and sums overflow at.
         const auto weight = [&require](const char *field, double value)
         {
-            require.that(value >= 0.0 && value <= MOST_WEIGHT, field, value, "a number from 0 to 1e9");
+            require.that(value >= 0.0 && value <= MAX_WEIGHT, field, value, "a number from 0 to 1e9");
         };
         weight("accelerationWeight", accelerationWeight);
         weight("steeringWeight", steeringWeight);
@@ -155,11 +155,11 @@ namespace parking
             limits_[STEERING].high = vehicle.maxSteeringAngle;
             limits_[STEERING].change = vehicle.maxSteeringRate * parameters.step;
             options_.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-            options_.max_num_iterations = MOST_REJECTIONS;
+            options_.max_num_iterations = MAX_REJECTIONS;
             options_.function_tolerance = FUNCTION_TOLERANCE;
             options_.parameter_tolerance = 1e-6;
             options_.gradient_tolerance = 1e-6;
-            options_.max_num_consecutive_invalid_steps = 2 * MOST_REJECTIONS;  // more would be printed
+            options_.max_num_consecutive_invalid_steps = 2 * MAX_REJECTIONS;  // more would be printed
             options_.num_threads = 1;
             options_.logging_type = ceres::SILENT;
             options_.minimizer_progress_to_stdout = false;
@@ -253,7 +253,7 @@ namespace parking
             unknowns_ = cost.unknowns(step.data());
             if (!summary.iterations.empty())
                 options_.initial_trust_region_radius =
-                    std::clamp(GROWTH * summary.iterations.back().trust_region_radius, LEAST_RADIUS, LARGEST_RADIUS);
+                    std::clamp(GROWTH * summary.iterations.back().trust_region_radius, MIN_RADIUS, LARGEST_RADIUS);
         }
 
         /** First guess: the last answer, one step on, or the reference's own controls. */

@@ -35,7 +35,7 @@ namespace parking
         }
 
         /** Keeps a quadratic form definite when its weights are zero; far below any sensible weight. */
-        constexpr double LEAST_WEIGHT = 1e-9;
+        constexpr double MIN_WEIGHT = 1e-9;
     }  // namespace
 
     MpcCost::MpcCost(const Vehicle &vehicle, const MpcParameters &parameters)
@@ -55,7 +55,7 @@ namespace parking
     MpcCost::ControlForm MpcCost::makeForm(double weight, double changeWeight) const
     {
         ControlForm form;
-        form.weight = std::max(weight, LEAST_WEIGHT);
+        form.weight = std::max(weight, MIN_WEIGHT);
         form.changeWeight = changeWeight;
         form.diagonal.resize(steps_);
         form.below.setZero(steps_);

@@ -18,7 +18,7 @@ namespace parking
         constexpr double LAG_STOP = 0.25;          // metres behind at which the clock stands still
         constexpr double STUCK_TIME = 5.0;         // seconds with a standing clock after which the drive is given up
         constexpr double STEERING_PATIENCE = 2.0;  // seconds without progress that the wheels are waited for
-        constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
+        constexpr double MIN_PROGRESS = 1e-4;      // radians per period that count as progress
         constexpr double NO_TIME = 1e-9;           // seconds
 
         double towards(double from, double to, double most)
@@ -44,7 +44,7 @@ namespace parking
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
         response_(vehicle, parameters.response, parameters.mpc.step, initialSteering),
-        poseWatch_(parameters.maxFailures, parameters.posePatience, parameters.mpc.step)
+        poseWatch_(parameters.maxFailures, parameters.poseWaitLimit, parameters.mpc.step)
     {
         last_.steering = initialSteering;
         if (!reference_)
@@ -268,7 +268,7 @@ namespace parking
             return;
         }
         // Wheels that come nearer are given time; wheels that do not move are broken.
-        waited_ = off < wheelsOff_ - LEAST_PROGRESS || last_.steering != target ? 0.0 : waited_ + period;
+        waited_ = off < wheelsOff_ - MIN_PROGRESS || last_.steering != target ? 0.0 : waited_ + period;
         wheelsOff_ = off;
         if (waited_ > STEERING_PATIENCE)
         {
@@ -473,7 +473,7 @@ namespace parking
         constexpr double TRIED = 0.1, TURNED = 0.02;
         wheelsAwaited_ += parameters_.mpc.step;
         const bool areBack = std::abs(estimator().measuredSteering() - *stuckAt_) >= TURNED;
-        if (!areBack && wheelsAwaited_ <= parameters_.wheelPatience)
+        if (!areBack && wheelsAwaited_ <= parameters_.wheelWaitLimit)
         {
             const double target = std::clamp(*stuckAt_ - std::copysign(TRIED, *stuckAt_), -vehicle_.maxSteeringAngle,
                                              vehicle_.maxSteeringAngle);
@@ -483,7 +483,7 @@ namespace parking
         mode_ = TrackingMode::Stopped;
         step.event = areBack ? "the wheels turn again"
                              : "safe stop: the wheels do not follow their command, and have not for " +
-                                   formatNumber(parameters_.wheelPatience) + " s";
+                                   formatNumber(parameters_.wheelWaitLimit) + " s";
         if (areBack)
             step.interruption = "the wheels did not follow their command";
     }
@@ -497,19 +497,19 @@ namespace parking
         const bool isBack = verdict == PoseWatch::Verdict::Back;
         step.event = isBack ? "the pose is back"
                             : "safe stop: the pose was lost, and not back after " +
-                                  formatNumber(parameters_.posePatience) + " s";
+                                  formatNumber(parameters_.poseWaitLimit) + " s";
         if (isBack)
             step.interruption = "the pose was lost";
     }
 
-    Path TrackingController::stoppingWay(const Command &command) const
+    Path TrackingController::stoppingPath(const Command &command) const
     {
-        constexpr int MOST_PERIODS = 600;
+        constexpr int MAX_PERIODS = 600;
         const double brakes = std::min(response_.brakeScale(), 1.0 - parameters_.brakeReserve);
         Path way{estimator().pose(), {}};
         CarState car = response_.after(response_.ahead(&way), command, brakes, &way);
         double s = s_, last = command.steering;
-        for (int i = 0; i < MOST_PERIODS && std::abs(car.speed) > STANDING; ++i)
+        for (int i = 0; i < MAX_PERIODS && std::abs(car.speed) > STANDING; ++i)
         {
             const PathProjection place = reference_->project(leg_, car.pose, s - SEARCH, s + SEARCH);
             const Command next = braking(car, place, last);
@@ -524,7 +524,7 @@ namespace parking
     {
         step.estimate = estimator().pose();
         step.leg = leg_;
-        step.stoppingWay = stoppingWay(step.command);
+        step.stoppingPath = stoppingPath(step.command);
         if (guard_(step))
         {
             refused_ = 0.0;
@@ -536,7 +536,7 @@ namespace parking
             step.event = "slowing down: the way to a stop is not free";
         if (std::abs(estimator().speed()) <= STANDING)
             refused_ += parameters_.mpc.step;
-        if (refused_ < parameters_.guardPatience)
+        if (refused_ < parameters_.guardWaitLimit)
             return;
         step.interruption = "the car could not stop in time if it went on";
         beginStop("the car cannot go on and still stop in time", step);

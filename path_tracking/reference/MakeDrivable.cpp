@@ -23,7 +23,7 @@ namespace parking
     {
         constexpr double SHUNT_STEP = 0.1;       // metres between the places where a shunt's deviation is looked at
         constexpr double SHORTEST_PIECE = 1e-7;  // metres; less is rounding
-        constexpr double MOST_CURVATURE = 1.01;  // of the car's that a path may have: rounding of turning radii
+        constexpr double MAX_CURVATURE = 1.01;   // of the car's that a path may have: rounding of turning radii
         constexpr double ROUNDING_TURN = 1e-9;   // radians; less is rounding of headings and not a corner
         constexpr double EXACT = 1e-5;           // metres from a place that count as standing there
         constexpr double EXACT_YAW = 1e-6;       // radians likewise
@@ -38,11 +38,11 @@ namespace parking
         constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m likewise
         constexpr double SEARCH_AHEAD = 2.0;        // metres of the stretch searched for the nearest place
         constexpr double JOIN_LENGTH = 1.0;         // metres over which a car returns exactly
-        constexpr double LEAST_JOIN = 0.3;          // metres; in less, even millimetres ask for much steering
+        constexpr double MIN_JOIN = 0.3;            // metres; in less, even millimetres ask for much steering
 
-        bool apart(const Pose &a, const Pose &b, double most, double mostYaw)
+        bool apart(const Pose &a, const Pose &b, double most, double maxYaw)
         {
-            return positionDistance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > mostYaw;
+            return positionDistance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > maxYaw;
         }
 
         bool isCorner(const PathPiece &piece)
@@ -54,7 +54,7 @@ namespace parking
         {
             if (!isFinite(path.start))
                 throw Error("path: its start must be finite numbers");
-            const double most = MOST_CURVATURE / vehicle.minTurningRadius();
+            const double most = MAX_CURVATURE / vehicle.minTurningRadius();
             for (std::size_t i = 0; i < path.pieces.size(); ++i)
             {
                 const PathPiece &piece = path.pieces[i];
@@ -227,7 +227,7 @@ namespace parking
         {
             // The joint keeps to one piece where that is long enough: two arcs cannot imitate more.
             const Path left = stretch.rest(from);
-            if (left.pieces.empty() || left.pieces.front().driven() < LEAST_JOIN)
+            if (left.pieces.empty() || left.pieces.front().driven() < MIN_JOIN)
                 return std::nullopt;
             const Path behind = left.rest(std::min(left.pieces.front().driven(), JOIN_LENGTH));
             std::optional<Path> path = biarc(car, behind.start, left.pieces.front().direction());

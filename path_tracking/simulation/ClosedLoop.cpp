@@ -17,7 +17,7 @@ namespace parking
         constexpr double PLANT_STEP = 0.005;     // seconds of integration
         constexpr double CHECK_DISTANCE = 0.02;  // metres that the body moves at most between two collision checks
         /** Seconds after which the drive is stopped: this share of the timed path's duration, and more. */
-        constexpr double PATIENCE = 2.0, MORE_PATIENCE = 60.0;
+        constexpr double TIME_RATIO = 2.0, EXTRA_TIME = 60.0;
 
         TimeStatistics timeStatistics(std::vector<double> values)
         {
@@ -199,7 +199,7 @@ namespace parking
         recorder.begin(plant.state());
 
         const double period = parameters_.tracking.mpc.step;
-        const double patience = MORE_PATIENCE + PATIENCE * reference.duration();
+        const double timeLimit = EXTRA_TIME + TIME_RATIO * reference.duration();
         DriveResult result;
         double t = 0.0, trueS = 0.0;
         std::size_t trueLeg = 0;
@@ -216,7 +216,7 @@ namespace parking
         for (std::size_t count = 0;; ++count)
         {
             t = static_cast<double>(count) * period;
-            if (t > patience)
+            if (t > timeLimit)
                 controller.requestStop("the drive takes too long");
             DriveRecord record;
             record.t = t;

@@ -12,15 +12,15 @@ namespace parking
         /** Metres of a part from which on all of the tolerance is needed. What an arc leaves grows with its length: so
             a car may park within hundredths of a millimetre of an obstacle. */
         constexpr double FULL_TOLERANCE_WAY = 0.02;
-        constexpr double LEAST_TOLERANCE = 0.005;  // share of the tolerance, for rounding
+        constexpr double MIN_TOLERANCE = 0.005;  // share of the tolerance, for rounding
 
         double toleranceOf(double length)
         {
-            return MOTION_CHECK_TOLERANCE * std::clamp(std::abs(length) / FULL_TOLERANCE_WAY, LEAST_TOLERANCE, 1.0);
+            return MOTION_CHECK_TOLERANCE * std::clamp(std::abs(length) / FULL_TOLERANCE_WAY, MIN_TOLERANCE, 1.0);
         }
 
-        constexpr double COVERED = 0.5;     // share of what the body is enlarged by that an arc may leave of a part
-        constexpr int MOST_DIVISIONS = 16;  // of a part, by two: fifteen are enough within a nanometre of an obstacle
+        constexpr double COVERED = 0.5;    // share of what the body is enlarged by that an arc may leave of a part
+        constexpr int MAX_DIVISIONS = 16;  // of a part, by two: fifteen are enough within a nanometre of an obstacle
 
         /** Does the body touch nothing on its way along a part? Swept as an arc; where it is so near to an obstacle
             that it is enlarged by less than covers what the arc leaves of the part, this is divided. */
@@ -40,7 +40,7 @@ namespace parking
             const double left = spread * std::abs(length) * (checker.farthestPoint() + 0.5 * std::abs(length));
             if (start.enlargement < 0.0 || left <= COVERED * start.enlargement)
                 return checker.freeLength(start, curvature, length, counts) >= std::abs(length);
-            return divisions < MOST_DIVISIONS &&
+            return divisions < MAX_DIVISIONS &&
                    visitParts({part.before, {part.from, part.to}}, vehicle, 0.5 * part.duration(), WAY,
                               [&](const MotionPart &half) { return isFree(half, checker, divisions + 1); });
         }

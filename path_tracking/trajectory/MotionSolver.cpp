@@ -15,14 +15,14 @@ namespace parking
         /** Of programs that begin with a solution, and of those that only get better phases. To end at 2e-5 s costs
            0.02 % of the time that is driven, which only the last program is worth. */
         constexpr InteriorPointOptions AGAIN{3e-4, 2e-5}, REFINING{5e-5, 3e-6};
-        constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
-        constexpr double LEAST_ITERATIONS = 120.0;  // that may be done for any path, of programs of the first's size
-        constexpr double WORK_TO_FIND = 5.0;        // times as much work as long as nothing is found
-        constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
-        constexpr std::size_t MOST_HITS = 50;       // that are looked into; with more of them a motion has strayed
+        constexpr double MIN_WORK = 4.5e4;        // that may be done for any path
+        constexpr double MIN_ITERATIONS = 120.0;  // that may be done for any path, of programs of the first's size
+        constexpr double WORK_TO_FIND = 5.0;      // times as much work as long as nothing is found
+        constexpr double NEAR_HIT = 0.05;         // metres within which obstacles are to blame for a hit
+        constexpr std::size_t MAX_HITS = 50;      // that are looked into; with more of them a motion has strayed
         constexpr std::size_t ANY_HITS = std::numeric_limits<std::size_t>::max();
         constexpr double GOAL_TOLERANCE = 2e-3;  // metres and radians that integration may miss the goal by
-        constexpr int MOST_CORRECTIONS = 2;      // of where the intervals of a program lead
+        constexpr int MAX_CORRECTIONS = 2;       // of where the intervals of a program lead
     }                                            // namespace
 
     Pose MotionWorld::toLocal(const Pose &pose) const
@@ -89,7 +89,7 @@ namespace parking
         InteriorPointOptions again = options;
         again.firstBarrier = AGAIN.firstBarrier;
         // Along hundreds of metres the small errors of collocation add up.
-        for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion, view); ++i)
+        for (int i = 0; i < MAX_CORRECTIONS && !reachesGoal(motion, view); ++i)
         {
             correctIntervals(problem);
             cost = minimize(problem, again);
@@ -109,9 +109,9 @@ namespace parking
         MotionProgram program(problem);
         const double size = static_cast<double>(problem.nodes.size()) + static_cast<double>(problem.rows.size()) / 12.0;
         if (budget_ == 0.0)
-            budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
+            budget_ = std::max(MIN_WORK, MIN_ITERATIONS * size);
         const double affordable = std::max(0.0, left() / size);
-        options.mostIterations = std::min(options.mostIterations, 1 + static_cast<std::size_t>(affordable));
+        options.maxIterations = std::min(options.maxIterations, 1 + static_cast<std::size_t>(affordable));
         InteriorPointResult solved = solveMotion(program, options, world_.interrupted);
         work_ += size * static_cast<double>(solved.iterations);
         ++rounds_;
@@ -140,9 +140,9 @@ namespace parking
         reason_ = "the motions found touch obstacles";
         const std::vector<Pose> hits = collisionsOf(motion, world_.checker, ANY_HITS);
         outcome.holds = hits.empty();
-        outcome.hasStrayed = hits.size() > MOST_HITS;
+        outcome.hasStrayed = hits.size() > MAX_HITS;
         // All along the motion: what is in the way at its end should not wait for what is at its begin.
-        const std::size_t stride = 1 + hits.size() / MOST_HITS;
+        const std::size_t stride = 1 + hits.size() / MAX_HITS;
         for (std::size_t i = 0; i < hits.size(); i += stride)
             for (const std::size_t piece : piecesNear(world_.pieces, world_.body, world_.toLocal(hits[i]), NEAR_HIT))
                 if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())

@@ -25,11 +25,11 @@ namespace parking
         constexpr double LIKELY = 1.02;          // share of it up to which driving along a path may cost at least
         constexpr double ALIKE = 1.2;            // metres between paths for which one program is enough
         constexpr double SAME_COST = 1e-3;       // share of the cost up to which two solutions count as one
-        constexpr std::size_t MOST_RETRIES = 2;  // of a motion that is quicker than what holds, but does not
+        constexpr std::size_t MAX_RETRIES = 2;   // of a motion that is quicker than what holds, but does not
         constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
-        constexpr std::size_t MOST_DROPS = 4;    // such attempts
+        constexpr std::size_t MAX_DROPS = 4;     // such attempts
         constexpr double LIMITS_LEFT = 2e-5;     // share of the limits that is left for rounding
-        constexpr double MOST_INTERVALS = 1e4;   // of a motion that is searched for: 8 kB and 0.2 ms each
+        constexpr double MAX_INTERVALS = 1e4;    // of a motion that is searched for: 8 kB and 0.2 ms each
         /** Of programs that begin with a guess, and of those without a stretch: where that works it works soon. */
         constexpr InteriorPointOptions FROM_GUESS{}, DROPPING{5e-3, 2e-5, 40};
 
@@ -138,9 +138,9 @@ namespace parking
                 attempts.emplace_back(owner_, world_, paths[i], i);
             // What promises to be quick comes first, so that the rest need not be looked at.
             std::stable_sort(attempts.begin(), attempts.end(),
-                             [](const Attempt &a, const Attempt &b) { return a.leastCost < b.leastCost; });
+                             [](const Attempt &a, const Attempt &b) { return a.minCost < b.minCost; });
             std::vector<MotionSolution> solutions;
-            for (std::size_t round = 0; round < owner_.options_.mostRounds && solutions.empty(); ++round)
+            for (std::size_t round = 0; round < owner_.options_.maxRounds && solutions.empty(); ++round)
                 solveEach(attempts, limit, solutions);
             std::stable_sort(solutions.begin(), solutions.end(),
                              [](const MotionSolution &a, const MotionSolution &b) { return a.cost < b.cost; });
@@ -173,14 +173,14 @@ namespace parking
                 view.separation.margin = owner.options_.margin;
                 view.separation.range = RANGE;
                 outline.emplace(owner.outline(guessesAlong(local, owner.body_), step));
-                leastCost = owner.options_.weights.time * outline->duration();
+                minCost = owner.options_.weights.time * outline->duration();
             }
 
             Path local;  // in the coordinates of the pieces
             MotionView view;
             double step;
             std::optional<MotionOutline> outline;
-            double leastCost;  // of driving along it if the wheels needed no time to turn
+            double minCost;  // of driving along it if the wheels needed no time to turn
         };
 
         /** The directions that are driven one after another. */
@@ -193,7 +193,7 @@ namespace parking
             return directions;
         }
 
-        static double leastCost(const std::vector<MotionSolution> &solutions)
+        static double minCost(const std::vector<MotionSolution> &solutions)
         {
             double least = solutions.front().cost;
             for (const MotionSolution &solution : solutions)
@@ -207,13 +207,12 @@ namespace parking
             std::vector<const Path *> solved;
             for (Attempt &attempt : attempts)
             {
-                if (!solver_.mayGoOn() ||
-                    attempt.leastCost > (solutions.empty() ? limit : LIKELY * leastCost(solutions)))
+                if (!solver_.mayGoOn() || attempt.minCost > (solutions.empty() ? limit : LIKELY * minCost(solutions)))
                     return;
                 if (std::any_of(solved.begin(), solved.end(),
                                 [&attempt](const Path *path) { return areAlike(*path, attempt.local); }))
                     continue;
-                if (auto solution = solve(attempt, solutions.empty() ? limit : leastCost(solutions)))
+                if (auto solution = solve(attempt, solutions.empty() ? limit : minCost(solutions)))
                 {
                     solver_.spareWork();
                     solved.push_back(&attempt.local);
@@ -255,7 +254,7 @@ namespace parking
             else
             {
                 attempt.view.separation.margin *= 0.25;
-                attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MOST_INTERVALS);
+                attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MAX_INTERVALS);
                 attempt.outline.emplace(owner_.outline(guessesAlong(attempt.local, owner_.body_), attempt.step));
             }
             return std::nullopt;
@@ -266,7 +265,7 @@ namespace parking
         std::optional<MotionSolution> rightOf(MotionOutcome found, double limit,
                                               const std::function<MotionOutcome()> &anew)
         {
-            for (std::size_t i = 0; i < MOST_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
+            for (std::size_t i = 0; i < MAX_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
             {
                 if (found.solution->cost >= limit)
                     break;
@@ -301,7 +300,7 @@ namespace parking
         /** Chooses the lines anew along what was found, as often as that is worth it. */
         void improve(MotionSolution &best)
         {
-            for (std::size_t round = 0; round < owner_.options_.mostRounds && solver_.mayGoOn(); ++round)
+            for (std::size_t round = 0; round < owner_.options_.maxRounds && solver_.mayGoOn(); ++round)
             {
                 MotionOutcome found = solver_.solveAgain(best);
                 const double gain = found.holds ? best.cost - found.solution->cost : 0.0;
@@ -316,7 +315,7 @@ namespace parking
             way is worth, and the program can move a cusp, but never do away with it. */
         void dropStretches(MotionSolution &best)
         {
-            std::size_t tries = 0;
+            std::size_t attempts = 0;
             for (bool again = true; again;)
             {
                 again = false;
@@ -328,12 +327,12 @@ namespace parking
                                  { return stretches[a].length() < stretches[b].length(); });
                 for (const std::size_t index : order)
                 {
-                    if (tries >= MOST_DROPS || !solver_.mayGoOn() || stretches[index].length() > LONGEST_DROPPED)
+                    if (attempts >= MAX_DROPS || !solver_.mayGoOn() || stretches[index].length() > LONGEST_DROPPED)
                         return;
                     const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.body_);
                     if (rest.empty())
                         return;
-                    ++tries;
+                    ++attempts;
                     MotionOutcome found = solveAlong(owner_.outline(rest, owner_.options_.step), best.view, DROPPING);
                     if (!found.holds || found.solution->cost >= best.cost)
                         continue;
@@ -381,7 +380,7 @@ namespace parking
             TimedMotion motion = stopAndSteer(paths[i], used, options_.initialSteering, options_.finalSteering);
             if (!touchesNothing(checker_, paths[i]))
                 throw Error("trajectory: the path collides");
-            if (motion.duration() <= MOST_INTERVALS * options_.step)
+            if (motion.duration() <= MAX_INTERVALS * options_.step)
                 searched.push_back(i);
             if (i > 0 && costOf(motion) >= costOf(result.motion))
                 continue;
@@ -392,7 +391,7 @@ namespace parking
             result.reason = "interrupted";
         else if (searched.empty())
             result.reason =
-                "driving takes more than " + formatNumber(MOST_INTERVALS) + " steps, too long to look for better";
+                "driving takes more than " + formatNumber(MAX_INTERVALS) + " steps, too long to look for better";
         else
             improve(paths, searched, interrupted, result);
         return result;

@@ -28,7 +28,7 @@ namespace parking::python
             using P = PlanningParameters;
             static const std::array<std::pair<const char *, double P::*>, 7> NUMBERS{
                 {{"time_limit", &P::timeLimit},
-                 {"gap_worth", &P::gapWorth},
+                 {"gap_worth", &P::gapWeight},
                  {"radius_factor", &P::radiusFactor},
                  {"gear_change_penalty", &P::gearChangePenalty},
                  {"steering_change_penalty", &P::steeringChangePenalty},
@@ -62,7 +62,7 @@ namespace parking::python
                     const auto way = std::find(WAYS.begin(), WAYS.end(), py::cast<std::string>(py::str(value)));
                     if (way == WAYS.end())
                         throw Error(unknownName("value for way_in", py::cast<std::string>(py::str(value)), WAYS));
-                    parameters.wayIn = static_cast<WayIn>(way - WAYS.begin());
+                    parameters.entryMode = static_cast<EntryMode>(way - WAYS.begin());
                 }
                 else if (name != "aisle_width")
                 {
@@ -109,7 +109,7 @@ namespace parking::python
         {
             const ParkingPlan &plan = self.plan();
             py::dict result;
-            result["tries"] = plan.tries;
+            result["tries"] = plan.attempts;
             result["expanded"] = plan.search.expanded;
             result["generated"] = plan.search.generated;
             result["planning_time"] = plan.planningTime;

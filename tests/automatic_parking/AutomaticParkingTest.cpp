@@ -411,7 +411,7 @@ namespace
             return field(&P::drive, &ClosedLoopParameters::tracking, members...);
         };
         expectRefused<P>({{"keptClearance", field(&P::keptClearance), {-1.0, nan}},
-                          {"leastClearance", field(&P::leastClearance), {-1.0, nan}},
+                          {"minClearance", field(&P::minClearance), {-1.0, nan}},
                           {"motionClearance", field(&P::motionClearance), {-1.0, nan}},
                           {"clearanceShare", field(&P::clearanceShare), {0.0, 1.0, nan}},
                           {"stopClearance", field(&P::stopClearance), {-1.0, nan}},

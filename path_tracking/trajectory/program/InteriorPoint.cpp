@@ -14,7 +14,7 @@ namespace parking
 
         /** Length of a step below which the next direction is damped, the damping that begins with, the most, and what
             is too little to matter. It falls by and by: switched off at once, every second step was short. */
-        constexpr double SHORT_STEP = 0.1, FIRST_DAMPING = 0.02, MOST_DAMPING = 1.0, NO_DAMPING = 0.005;
+        constexpr double SHORT_STEP = 0.1, FIRST_DAMPING = 0.02, MAX_DAMPING = 1.0, NO_DAMPING = 0.005;
         /** A barrier's problem counts as solved when its cost changes by less than this share so many times in a row,
            and joints and inequalities are this near to holding. Else the last millisecond takes half of the time. */
         constexpr double SMALL_CHANGE = 1e-4, NEARLY = 1e-4;
@@ -25,7 +25,7 @@ namespace parking
         /** The same in what is optimal, and by how much inequalities may be missed. */
         constexpr double OPTIMAL_GAP = 1e-6, LIMIT_TOLERANCE = 1e-7;
         /** Attempts to make the system positive definite. */
-        constexpr int MOST_SHIFTS = 40;
+        constexpr int MAX_SHIFTS = 40;
 
         using Nodes = std::vector<NodeVector>;
 
@@ -71,7 +71,7 @@ namespace parking
             {
                 InteriorPointResult result;
                 std::size_t stuck = 0;
-                for (; result.iterations < options_.mostIterations; ++result.iterations)
+                for (; result.iterations < options_.maxIterations; ++result.iterations)
                 {
                     if (interrupted && interrupted())
                     {
@@ -172,7 +172,7 @@ namespace parking
                 double shift = damping_;
                 for (int attempt = 0; !program_.system().factorize(shift); ++attempt)
                 {
-                    if (attempt == MOST_SHIFTS)
+                    if (attempt == MAX_SHIFTS)
                         return false;
                     shift = attempt > 0 ? shift * (lastShift_ > 0.0 ? 4.0 : 20.0)
                                         : std::max({1e-6, lastShift_ / 3.0, 4.0 * damping_});
@@ -276,7 +276,7 @@ namespace parking
                 lastShift_ = found && length > 0.5 ? lastShift_ / 3.0 : lastShift_;
                 // Short steps are a sign of a direction that reaches beyond what the linearisation knows.
                 if (length < SHORT_STEP)
-                    damping_ = std::min(MOST_DAMPING, std::max(FIRST_DAMPING, 4.0 * damping_));
+                    damping_ = std::min(MAX_DAMPING, std::max(FIRST_DAMPING, 4.0 * damping_));
                 else if (length > 0.5)
                     damping_ = damping_ > NO_DAMPING ? 0.25 * damping_ : 0.0;
                 return found;

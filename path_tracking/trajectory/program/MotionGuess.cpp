@@ -16,7 +16,7 @@ namespace parking
         constexpr double GRID = 0.02;            // metres between two points along a path
         constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, about
         constexpr double STEERING_WINDOW = 0.5;  // metres over which a guess turns the wheels, to either side
-        constexpr double LEAST_WAY = 1e-3;       // metres between two points, so that a drive takes time
+        constexpr double MIN_WAY = 1e-3;         // metres between two points, so that a drive takes time
         constexpr double BEND = 6.0;             // metres over which a stretch is bent to another end
         constexpr double LEVER = 1.5;            // metres that a radian counts for when poses are compared
         constexpr std::size_t FEWEST_POINTS = 3;
@@ -130,7 +130,7 @@ namespace parking
     {
         std::vector<double> ways;
         for (std::size_t i = 1; i < points_.size(); ++i)
-            ways.push_back(std::max(LEAST_WAY, positionDistance(points_[i - 1].pose, points_[i].pose)));
+            ways.push_back(std::max(MIN_WAY, positionDistance(points_[i - 1].pose, points_[i].pose)));
         setSpeeds(ways, vehicle);
     }
 

@@ -16,7 +16,7 @@ namespace parking
         constexpr double INF = std::numeric_limits<double>::infinity();
         /** Metres beyond what a checkpoint needs that its neighbours may use, too. */
         constexpr double PART = 3.0;
-        constexpr int MOST_REFINEMENTS = 5;
+        constexpr int MAX_REFINEMENTS = 5;
         /** Metres within which pieces matter that are known to be in the way. */
         constexpr double KNOWN_RANGE = 15.0;
         /** Metres of overlap that a change of lines may ask for before poses are put between. */
@@ -94,7 +94,7 @@ namespace parking
             for (const Choice &choice : place.choices)
                 if (place.point.fixed)
                     margins_[choice.piece] = std::min(margins_[choice.piece], std::max(0.0, 0.5 * choice.gap));
-        for (int i = 0; i < MOST_REFINEMENTS && refine(poseAt, interrupted); ++i)
+        for (int i = 0; i < MAX_REFINEMENTS && refine(poseAt, interrupted); ++i)
         {
         }
         joinNeighbours();

@@ -317,11 +317,11 @@ namespace parking::test
         }
 
         /** The drive along a path of which some is driven without a pose. */
-        DriveResult driveBlind(const std::vector<TimeSpan> &spans, double posePatience)
+        DriveResult driveBlind(const std::vector<TimeSpan> &spans, double poseWaitLimit)
         {
             ClosedLoopParameters parameters;
             parameters.disturbances.blind = spans;
-            parameters.tracking.posePatience = posePatience;
+            parameters.tracking.poseWaitLimit = poseWaitLimit;
             return ClosedLoop(Vehicle(), parameters).drive(arcs({1.0, 2.0, 0.5}, {{0.0, 3.0}, {1.0, 4.0}, {0.0, 3.0}}));
         }
 
