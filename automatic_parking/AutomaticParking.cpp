@@ -132,7 +132,7 @@ namespace parking
             leg.reason = "given path";
             leg.plan.found = true;
             leg.plan.path = path;
-            leg.plan.message = "a path from elsewhere";
+            leg.plan.message = "a given path";
             parameters_.replanCrossTrack = parameters_.replanHeadingError = std::numeric_limits<double>::infinity();
             Pose truth = scenario_.start;
             if (!path.pieces.empty())
@@ -202,13 +202,13 @@ namespace parking
                 QuickestTrajectory found =
                     quickestTrajectory(world_.footprint(), scenario_.bounds, leg.plan.path, options);
                 if (found.trajectory.fallback)
-                    note("the path is driven with standstills: " + found.trajectory.reason);
+                    note("the car stops to steer: " + found.trajectory.reason);
                 else
                     leg.trajectory = std::move(found);
             }
             catch (const Error &error)
             {
-                note(std::string("the path is driven with standstills: ") + error.what());
+                note(std::string("the car stops to steer: ") + error.what());
             }
             leg.optimizationTime = watch.seconds();
             result_.planningTime += leg.optimizationTime;
@@ -234,7 +234,7 @@ namespace parking
                 return;
             plan.found = false;
             plan.message =
-                "the way leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
+                "the path leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
         }
 
         /** May the car give a command that needs \e stoppingPath to come to rest again, from where it is now?

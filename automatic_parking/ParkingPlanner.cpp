@@ -95,7 +95,7 @@ namespace parking
                 smooth(*best.checker);
                 plan_.clearance = minClearance(world_.footprint(), plan_.path);
                 plan_.message =
-                    (plan_.manoeuvre.path.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
+                    (plan_.manoeuvre.path.pieces.empty() ? "searched all the way" : "approach and manoeuvre") +
                     std::string(", at least ") + centimetres(plan_.clearance) + " from obstacles";
                 return std::move(plan_);
             }
@@ -120,7 +120,7 @@ namespace parking
                 const FootprintChecker &body = world_.footprint();
                 if (!body.isFree(scenario_.start))
                 {
-                    fail(ParkingStatus::InvalidStart, "the car is in collision, or outside, where it starts");
+                    fail(ParkingStatus::InvalidStart, "the car collides or is outside the world at its start");
                     return false;
                 }
                 startClearance_ = body.exactClearance(scenario_.start);
@@ -133,9 +133,9 @@ namespace parking
                             return stay(goal);
                     }
                 if (goalClearance < 0.0)
-                    fail(ParkingStatus::InvalidGoal, "the car is in collision, or outside, at the goal");
+                    fail(ParkingStatus::InvalidGoal, "the car collides or is outside the world at its goal");
                 else if (inStretches_ && startClearance_ <= PlanningParameters::MIN_GAP_IN_STRETCHES)
-                    fail(ParkingStatus::InvalidStart, "the start is nearer to an obstacle than the least gap of 4 mm");
+                    fail(ParkingStatus::InvalidStart, "the start is nearer to an obstacle than the minimum gap of 4 mm");
                 else
                 {
                     maxGap_ = std::min(startClearance_, goalClearance);
@@ -149,7 +149,7 @@ namespace parking
             bool stay(const Pose &goal)
             {
                 plan_.found = true;
-                plan_.message = "the car stands at the goal already";
+                plan_.message = "the car already stands at the goal";
                 plan_.goal = goal;
                 plan_.approach = plan_.arcs = plan_.path = Path{scenario_.start, {}};
                 plan_.clearance = startClearance_;
@@ -359,7 +359,7 @@ namespace parking
                     result = planInStretches(parking, *scenario_.slot, queries, leave);
                     if (result.fits())
                         return {std::move(result)};
-                    result.message += "; nor was a way in several stretches found";
+                    result.message += "; no slot entry in several stretches was found, either";
                 }
                 if (!verdict_)
                     verdict_ = std::move(result);

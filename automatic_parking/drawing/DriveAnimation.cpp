@@ -44,7 +44,7 @@ namespace parking
         {
             if (driven.size() < 2)
                 throw Error("animation: the drive has " + std::to_string(driven.size()) +
-                            " points; at least 2 are needed");
+                            " points; at least 2 are required");
             for (std::size_t i = 0; i < driven.size(); ++i)
             {
                 const TrajectoryPoint &point = driven[i];

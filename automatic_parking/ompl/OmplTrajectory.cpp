@@ -77,10 +77,10 @@ namespace parking
     Path pathOf(const ompl::geometric::PathGeometric &path)
     {
         if (path.getStateCount() < 2)
-            throw Error("an OMPL path of " + std::to_string(path.getStateCount()) + " states leads nowhere");
+            throw Error("an OMPL path of " + std::to_string(path.getStateCount()) + " states has no length; at least 2 are required");
         const CurveSpace space(*path.getSpaceInformation()->getStateSpace());
         if (space.kind() == SpaceKind::SE2)
-            throw Error("an OMPL path in a plain SE2 space has straight lines between its poses; no car drives those");
+            throw Error("an OMPL path in a plain SE2 space has straight lines between its poses, which no car can drive");
         Path arcs;
         arcs.start = poseOf(path.getState(0));
         ReedsSheppCurve curve;
@@ -121,7 +121,7 @@ namespace parking
                                                  const oc::SpaceInformationPtr &si)
     {
         if (motion.knots.size() < 2)
-            throw Error("a motion of " + std::to_string(motion.knots.size()) + " knots leads nowhere");
+            throw Error("a motion of " + std::to_string(motion.knots.size()) + " knots has no duration; at least 2 are required");
         auto path = std::make_shared<oc::PathControl>(si);
         ob::State *state = si->allocState();
         oc::Control *control = si->allocControl();

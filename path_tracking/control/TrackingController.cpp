@@ -416,7 +416,7 @@ namespace parking
         clock_ += rate * period;
         waited_ = rate < 0.05 ? waited_ + period : 0.0;
         if (waited_ > STUCK_TIME)
-            beginStop("the car does not move on", step);
+            beginStop("the car does not move", step);
     }
 
     void TrackingController::endWithPeriod(const CarState &car, TrackingStep &step)
@@ -482,7 +482,7 @@ namespace parking
         }
         mode_ = TrackingMode::Stopped;
         step.event = areBack ? "the wheels turn again"
-                             : "safe stop: the wheels do not follow their command, and have not for " +
+                             : "safe stop: the wheels have not followed their command for " +
                                    formatNumber(parameters_.wheelWaitLimit) + " s";
         if (areBack)
             step.interruption = "the wheels did not follow their command";
@@ -495,8 +495,8 @@ namespace parking
             return;
         mode_ = TrackingMode::Stopped;
         const bool isBack = verdict == PoseWatch::Verdict::Back;
-        step.event = isBack ? "the pose is back"
-                            : "safe stop: the pose was lost, and not back after " +
+        step.event = isBack ? "the pose is available again"
+                            : "safe stop: the pose was lost and not recovered within " +
                                   formatNumber(parameters_.poseWaitLimit) + " s";
         if (isBack)
             step.interruption = "the pose was lost";
@@ -533,12 +533,12 @@ namespace parking
         const CarState car = response_.ahead();
         step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
         if (refused_ == 0.0 && step.event.empty())
-            step.event = "slowing down: the way to a stop is not free";
+            step.event = "slowing down: the path to a stop is not free";
         if (std::abs(estimator().speed()) <= STANDING)
             refused_ += parameters_.mpc.step;
         if (refused_ < parameters_.guardWaitLimit)
             return;
-        step.interruption = "the car could not stop in time if it went on";
-        beginStop("the car cannot go on and still stop in time", step);
+        step.interruption = "the car could not stop in time if it drove on";
+        beginStop("the car could not stop in time if it drove on", step);
     }
 }  // namespace parking

@@ -21,7 +21,7 @@ namespace parking
             vehicle.validate();
             const std::string what = "timed motion: ";
             if (motion.knots.size() < 2)
-                throw Error(what + "it has " + std::to_string(motion.knots.size()) + " knots; two are the least");
+                throw Error(what + "it has " + std::to_string(motion.knots.size()) + " knots; at least two are required");
             if (!isFinite(motion.start))
                 throw Error(what + "its start is not finite");
             if (motion.knots.front().v != 0.0 || motion.knots.back().v != 0.0)
@@ -47,9 +47,9 @@ namespace parking
                 const MotionKnot &before = motion.knots[i - 1];
                 const double h = knot.t - before.t;
                 if (!(h > 0.0))
-                    throw Error(where + "time does not go on");
+                    throw Error(where + "the time does not increase");
                 if (before.v * knot.v < 0.0)
-                    throw Error(where + "the direction has changed without a rest");
+                    throw Error(where + "the direction changes without standstill");
                 if (std::abs(knot.v - before.v) > most(vehicle.maxAcceleration) * h + LIMIT_SLACK)
                     throw Error(where + "the acceleration is beyond the car's " +
                                 formatNumber(vehicle.maxAcceleration) + " m/s^2");

@@ -241,7 +241,7 @@ namespace parking
             }
             const bool over = controller.finished() && record.car.speed == 0.0;
             if (!over && monitor_ && !monitor_(record))
-                controller.requestStop("the monitor asked for it");
+                controller.requestStop("the monitor requested it");
             result.log.push_back(record);
             if (over)
                 break;

@@ -116,7 +116,7 @@ namespace parking
         work_ += size * static_cast<double>(solved.iterations);
         ++rounds_;
         iterations_ += solved.iterations;
-        reason_ = "no motion found that holds all limits";
+        reason_ = "no motion within all limits was found";
         if (solved.status == InteriorPointStatus::Interrupted)
             stop();
         if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)

@@ -40,10 +40,10 @@ namespace parking
                 !std::isfinite(piece.turn))
                 throw Error(which + "is not finite");
             if (piece.turn != 0.0)
-                throw Error(which + "turns on the spot; no car can");
+                throw Error(which + "turns on the spot, which no car can do");
             const double most = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
             if (most * vehicle.minTurningRadius() > 1.0 + CURVATURE_SLACK)
-                throw Error(which + "has the curvature " + formatNumber(most) + " 1/m; the car turns with up to " +
+                throw Error(which + "has the curvature " + formatNumber(most) + " 1/m; the maximum of the car is " +
                             formatNumber(1.0 / vehicle.minTurningRadius()) + " 1/m");
         }
 

@@ -391,7 +391,7 @@ namespace parking
             result.reason = "interrupted";
         else if (searched.empty())
             result.reason =
-                "driving takes more than " + formatNumber(MAX_INTERVALS) + " steps, too long to look for better";
+                "driving takes more than " + formatNumber(MAX_INTERVALS) + " steps, the limit of the optimisation";
         else
             improve(paths, searched, interrupted, result);
         return result;
@@ -407,7 +407,7 @@ namespace parking
         // Where even turning the wheels in no time would cost as much nothing was solved, and the solver has no reason.
         const bool isPointless = !found && search.solver().reason().empty();
         if (isPointless || (found && costOf(found->motion) >= costOf(result.motion)))
-            result.reason = "stopping to steer is as quick";
+            result.reason = "stopping to steer is equally fast";
         else if (!found)
             result.reason = search.solver().reason();
         else

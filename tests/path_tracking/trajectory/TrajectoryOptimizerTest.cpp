@@ -337,7 +337,7 @@ namespace parking
                     options.speedShare = options.accelerationShare = options.steeringRateShare = share;
                     const OptimizedTrajectory found = TrajectoryOptimizer(checkerOf({}), options).optimize(path);
                     EXPECT_EQ(found.fallback, path.pieces.size() == 1) << share;
-                    EXPECT_EQ(found.reason, found.fallback ? "stopping to steer is as quick" : "") << share;
+                    EXPECT_EQ(found.reason, found.fallback ? "stopping to steer is equally fast" : "") << share;
                     const std::vector<MotionKnot> &knots = found.motion.knots;
                     for (std::size_t k = 1; k < knots.size(); ++k)
                     {
