@@ -26,7 +26,7 @@ namespace parking
         constexpr double SAME_POSE = 1e-6;  // metres and radians, as for joined()
         constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWeight
 
-        /** A step of the ladder: how far to stay away from everything, and how tightly to turn. Metres. */
+        /** Parameters of an attempt: gap and turning radius, in metres. */
         struct ClearanceLevel
         {
             double gap;           ///< required
@@ -35,18 +35,18 @@ namespace parking
             double checkMargin;   ///< and for constructed manoeuvres and smoothing
         };
 
-        /** What a level has led to: a way from start to goal, or, where only the way in is required, that. */
+        /** Result of an attempt: a path from start to goal, or only the slot entry if that is required. */
         struct Candidate
         {
-            ReverseParkingResult manoeuvre;  ///< the way into the slot; no pieces where there is none
-            Path approach,                   ///< from the start to where the manoeuvre begins, or all the way
+            ReverseParkingResult manoeuvre;  ///< slot entry; no pieces if there is none
+            Path approach,                   ///< from the start to the manoeuvre, or all the way
                 arcs;                        ///< both, from start to goal
-            Pose goal;                       ///< the pose that the way ends at
-            /** Metres, 0 for a way in alone; infinite when nothing was found. */
+            Pose goal;                       ///< last pose of the path
+            /** Metres, 0 for a slot entry only; infinite if no path was found. */
             double cost{std::numeric_limits<double>::infinity()};
             std::size_t stretches{0};                         ///< at the slot
-            ClearanceLevel level{};                           ///< what it was found with
-            std::shared_ptr<const FootprintChecker> checker;  ///< within whose margin it may be smoothed
+            ClearanceLevel level{};                           ///< level of the attempt
+            std::shared_ptr<const FootprintChecker> checker;  ///< whose margin the smoothed path must keep
 
             bool found() const
             {
@@ -59,7 +59,7 @@ namespace parking
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        /** The making of one plan: climbs the ladder, compares what its levels lead to, and smooths the best. */
+        /** Makes one plan: runs the attempts, compares their results, and smooths the best. */
         class Planning
         {
         public:
@@ -114,7 +114,7 @@ namespace parking
                 plan_.message = message;
             }
 
-            /** Looks at start and goals; false when the plan is finished with that. */
+            /** Checks start and goals. \return false if the plan is finished */
             bool checkEnds()
             {
                 const FootprintChecker &body = world_.footprint();
@@ -135,7 +135,8 @@ namespace parking
                 if (goalClearance < 0.0)
                     fail(ParkingStatus::InvalidGoal, "the car collides or is outside the world at its goal");
                 else if (inStretches_ && startClearance_ <= PlanningParameters::MIN_GAP_IN_STRETCHES)
-                    fail(ParkingStatus::InvalidStart, "the start is nearer to an obstacle than the minimum gap of 4 mm");
+                    fail(ParkingStatus::InvalidStart,
+                         "the start is nearer to an obstacle than the minimum gap of 4 mm");
                 else
                 {
                     maxGap_ = std::min(startClearance_, goalClearance);
@@ -145,7 +146,7 @@ namespace parking
                 return false;
             }
 
-            /** The car stands at its goal already. */
+            /** Finishes the plan of a car that already stands at its goal. */
             bool stay(const Pose &goal)
             {
                 plan_.found = true;
@@ -169,26 +170,26 @@ namespace parking
                 return parameters_.interrupted && parameters_.interrupted();
             }
 
-            /** Is the time up, or was planning interrupted? */
+            /** Whether the time limit has passed or planning was interrupted. */
             bool isOver() const
             {
                 return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
             }
 
-            /** Is it time for the last resort? */
+            /** Whether only the last attempt may start. */
             bool isLate() const
             {
                 return isInterrupted() || watch_.seconds() > tuning_.attemptsShare * parameters_.timeLimit;
             }
 
-            /** A step for EntryMode::InStretches: its searches keep up to a tolerance less than asked, and smoothing
-               may use half of the gap. */
+            /** A level for EntryMode::InStretches. Its searches keep up to a tolerance less than the gap, and smoothing
+                may use half of it. */
             ClearanceLevel levelInStretches(double gap, double radius) const
             {
                 return {gap, radius, gap - tuning_.sweepTolerance, 0.5 * gap};
             }
 
-            /** All tries, in their order. */
+            /** The levels of all attempts in order. */
             std::vector<ClearanceLevel> ladder() const
             {
                 const std::vector<double> &gaps = parameters_.gaps;
@@ -196,7 +197,7 @@ namespace parking
                 std::vector<ClearanceLevel> levels;
                 if (inStretches_)
                 {
-                    // The gap, and with it the reserve of steering, is given up step by step.
+                    // The gap and the reserve of steering decrease step by step.
                     const auto last = static_cast<double>(gaps.size() - 1);
                     for (std::size_t i = 0; i < gaps.size(); ++i)
                     {
@@ -212,7 +213,7 @@ namespace parking
                 return levels;
             }
 
-            /** The best of all tries. */
+            /** The best result of all attempts. */
             Candidate climb()
             {
                 const std::vector<ClearanceLevel> levels = ladder();
@@ -237,7 +238,7 @@ namespace parking
                     return true;
                 if (inStretches_)
                     return best.stretches > tuning_.manyStretches;
-                // Nothing that a smaller gap allows can be shorter than the bare curve.
+                // No path with a smaller gap is shorter than the curve without obstacles.
                 return level.radius == best.level.radius &&
                        minLength(level.radius) + gapCost(level.gap) < totalCost(best);
             }
@@ -262,7 +263,7 @@ namespace parking
                 return candidate.cost + gapCost(candidate.level.gap);
             }
 
-            /** Length of the shortest curve to any goal, obstacles or not. */
+            /** Length of the shortest curve to any goal, ignoring obstacles. */
             double minLength(double radius) const
             {
                 const ReedsShepp curves(radius);
@@ -272,7 +273,7 @@ namespace parking
                 return least;
             }
 
-            /** The body, enlarged for searches and for everything else; null where it is larger than the world. */
+            /** Checkers of the body enlarged for searches and for other checks; null if it is larger than the world. */
             struct Checkers
             {
                 std::shared_ptr<const FootprintChecker> search, check;
@@ -287,8 +288,8 @@ namespace parking
                 return body;
             }
 
-            /** What \e level allows. \param last there is no other: the search all the way is granted all of the time
-             */
+            /** The best path of \e level. \param last whether it is the last attempt, whose search may use the
+                remaining time */
             Candidate find(ClearanceLevel level, bool last)
             {
                 Checkers body = checkers(level);
@@ -298,7 +299,7 @@ namespace parking
                 std::vector<ReverseParkingResult> ways;
                 if (constructed)
                     ways = slotEntries(level, body);
-                // What was not found out of the slot is not looked for into it.
+                // If no path out of the slot was found, no search into it is made.
                 if (ways.empty() && (onlySlotEntry_ || (constructed && inStretches_)))
                     return {};
                 Candidate best;
@@ -330,12 +331,12 @@ namespace parking
                 return best;
             }
 
-            /** The ways into the slot that \e level allows, from P in the aisle to the parked pose: all that are one
-                sweep, otherwise the best in several stretches. */
+            /** The slot entries of \e level, from P in the aisle to the parked pose: all in one sweep, otherwise the
+                best in several stretches. */
             std::vector<ReverseParkingResult> slotEntries(const ClearanceLevel &level, const Checkers &body)
             {
                 ReverseParkingOptions sweep = parameters_.sweep;
-                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise the checker has it already
+                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise included in the checker
                 if (!inStretches_ && sweep.preferredRadius == 0.0)
                     sweep.preferredRadius =
                         std::max(level.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
@@ -373,8 +374,8 @@ namespace parking
                 Box bounds;  ///< of the rear axle
                 double radius;
                 double gearChange;
-                bool bothSides;            ///< search from both ends; otherwise out of \e from
-                std::uint64_t expansions;  ///< 0: as many as there is time for
+                bool bothSides;            ///< whether to search from both ends; otherwise from \e from only
+                std::uint64_t expansions;  ///< 0: limited by time only
             };
 
             SearchTask fromStart(const ClearanceLevel &level) const
@@ -388,7 +389,7 @@ namespace parking
                         parameters_.expansionsPerGap};
             }
 
-            /** To where one of \e ways begins, and on along it. */
+            /** Plans to the start of one of \e ways, and appends it. */
             Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &ways, SearchTask task,
                                        const FootprintChecker &checker)
             {
@@ -408,7 +409,7 @@ namespace parking
                 return candidate;
             }
 
-            /** The search's own way to one of the goals. */
+            /** Searches the whole path to one of the goals. */
             Candidate allTheWay(SearchTask task, const FootprintChecker &checker, bool last)
             {
                 Candidate candidate;
@@ -430,7 +431,7 @@ namespace parking
                 return candidate;
             }
 
-            /** Without pieces when nothing was found. */
+            /** The path found; without pieces if there is none. */
             Path search(const FootprintChecker &checker, const SearchTask &task)
             {
                 ++plan_.attempts;
@@ -446,7 +447,7 @@ namespace parking
                 request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
                 request.parameters.preferredClearance = parameters_.preferredClearance;
                 request.parameters.clearanceCost = parameters_.clearanceCost;
-                request.parameters.detours = task.bothSides;  // out of a slot they lead in more stretches
+                request.parameters.detours = task.bothSides;  // out of a slot they need more stretches
                 request.parameters.approximate = false;
                 request.maxExpansions = task.expansions;
                 request.stop = [this, isLast = task.expansions == 0]
@@ -458,7 +459,7 @@ namespace parking
                 return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
             }
 
-            /** Cost as of the car itself, so that paths planned with different gaps can be compared. */
+            /** Cost for the car without a gap, so that paths of different gaps can be compared. */
             double cost(const Path &path) const
             {
                 FootprintEnvironment environment(world_.footprint(), scenario_.bounds, tuning_.sweepTolerance);
@@ -479,7 +480,7 @@ namespace parking
                 {
                     plan_.smooth =
                         PathSmoother(scenario_.vehicle, parameters_.smoothing).smooth(plan_.arcs, queriesOf(checker));
-                    // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
+                    // The arcs were swept. If the smoothed path cannot be proved free, they are kept.
                     if (plan_.smooth.free && isPathFree(world_.footprint(), plan_.smooth.path))
                         plan_.path = plan_.smooth.path;
                     else
@@ -493,11 +494,11 @@ namespace parking
             const PlanningTuning &tuning_;
             const ParkingWorld &world_;
             const bool inStretches_;
-            bool onlySlotEntry_{false};   // the part at the slot is enough, wherever the car comes from
-            double startClearance_{0.0};  // metres, what the start leaves all round the body
-            double maxGap_{std::numeric_limits<double>::infinity()};  // metres, what start and goal leave
-            Stopwatch watch_;                                         // of the tries
-            std::optional<ReverseParkingResult> verdict_;             // of the first try that found no way in: why not
+            bool onlySlotEntry_{false};                               // only the slot entry is required, for any start
+            double startClearance_{0.0};                              // metres, clearance of the body at the start
+            double maxGap_{std::numeric_limits<double>::infinity()};  // metres, smaller clearance of start and goal
+            Stopwatch watch_;                                         // of all attempts
+            std::optional<ReverseParkingResult> verdict_;  // reason of the first attempt without a slot entry
             ParkingPlan plan_;
         };
     }  // namespace

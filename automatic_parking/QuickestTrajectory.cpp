@@ -17,25 +17,26 @@ namespace parking
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
         constexpr double SAME_LENGTH = 1e-3;      // metres by which equal paths differ
 
-        /** Metres that a change of direction, and turning the wheels to full lock, are worth where seconds count. */
+        /** Costs in metres of a change of direction and of steering to full lock, where time counts. */
         constexpr double GEAR_CHANGE = 10.0, STEERING_CHANGE = 0.1;
 
-        /** What makes the search prefer paths that are driven quickly. Chosen from a hundred settings on random queries
-           and the known problems: wide arcs leave the wheels time to turn, a search that is less hasty finds other ways
-            round, and so does one to which it costs nothing to be near obstacles, or much to reverse. */
+        /** Cost parameters that favour paths which are driven quickly. They were chosen from a hundred settings on
+            random queries and the known problems. Wide arcs leave time for steering. Further paths result from a less
+            greedy search, from one without a clearance cost, and from one with a high cost of reversing. */
         struct Taste
         {
             double radius;          // in turning radii of the car
             double haste;           // weight of the heuristic
-            bool keepsAway;         // whether it costs to be near obstacles
-            double reversePenalty;  // metres' worth, per metre
+            bool keepsAway;         // whether there is a clearance cost
+            double reversePenalty;  // metres per metre in reverse
             int direction;          // 0 for both, 1 for forwards all the way, -1 for reverse
             std::uint64_t maxExpansions;
         };
 
         constexpr std::uint64_t ANY = std::numeric_limits<std::uint64_t>::max();
 
-        /** A change of direction costs as much time as six metres at full speed: the last two do without any. */
+        /** A change of direction costs the time of six metres at full speed: the last two settings avoid it
+            completely. */
         constexpr std::array<Taste, 7> TASTES{Taste{1.1, 1.5, false, 0.0, 0, ANY},  Taste{1.25, 2.5, true, 0.0, 0, ANY},
                                               Taste{1.25, 1.5, false, 3.0, 0, ANY}, Taste{1.5, 1.5, false, 0.0, 0, ANY},
                                               Taste{1.1, 1.5, false, 3.0, 0, ANY},  Taste{1.1, 1.5, true, 0.0, 1, 250},
@@ -66,9 +67,11 @@ namespace parking
             return request;
         }
 
-        /** A path with at least one change of direction less than the fewest of those known, but not without any: that
-            is looked for by the last two tastes. The search is hasty and disregards clearance, but is given many
-            expansions, as the path may be a very different one; not on long ways, which take long to search. */
+        /** A path with fewer changes of direction than any known one, but at least one; the last two settings search
+            paths without any.
+
+            The search is greedy and ignores clearance, but has many expansions, because the path may be very different.
+            It is skipped for long paths, whose searches take long. */
         std::optional<Path> pathWithFewerCusps(FootprintEnvironment &environment, const FootprintChecker &checker,
                                                const Box &bounds, const Path &path, const std::vector<Path> &known,
                                                const QuickestTrajectoryOptions &options,

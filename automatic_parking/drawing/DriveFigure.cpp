@@ -15,7 +15,7 @@ namespace parking
         constexpr double ROOM = 1.15;       // of a plot beyond the car's limits
         constexpr double DRAWN_STEP = 0.1;  // metres between the states of a drawn path
 
-        /** When the car drives in reverse. */
+        /** Time spans in reverse. */
         std::vector<SvgBand> reverseBands(const Trajectory &driven)
         {
             std::vector<SvgBand> bands;
@@ -77,7 +77,7 @@ namespace parking
             return poses;
         }
 
-        /** What a car goes along, with the direction it goes in; while it stands that is the one before. */
+        /** States with directions; a standing car keeps its previous direction. */
         SampledPath statesOf(const Trajectory &trajectory)
         {
             SampledPath states;
@@ -115,8 +115,8 @@ namespace parking
         struct Way
         {
             SampledPath states;
-            const char *name;           // of what the car is drawn along
-            const char *beside, *dash;  // of a line beside that
+            const char *name;           // of the path along which the car is drawn
+            const char *beside, *dash;  // of an additional path
         };
         std::vector<Way> ways{{path, "path", "planned path", "1 4"},
                               {statesOf(planned), "trajectory", "planned trajectory", "5 3"},

@@ -7,11 +7,11 @@ namespace parking
 {
     namespace
     {
-        constexpr double MIN_ACCELERATION = 0.05;  // m/s^2 that say something
-        constexpr double SHORTEST_LAG = 1e-3;      // seconds; below it there is none
+        constexpr double MIN_ACCELERATION = 0.05;  // m/s^2, minimum for learning
+        constexpr double SHORTEST_LAG = 1e-3;      // seconds; shorter lags count as none
         constexpr double LONGEST_LAG = 0.5;        // seconds
-        constexpr double GAIN = 0.2;               // share of what one period says that is believed; the first say more
-    }                                              // namespace
+        constexpr double GAIN = 0.2;  // share of a period's estimate that is applied; higher for the first periods
+    }                                 // namespace
 
     double unfollowed(double lag, double duration)
     {
@@ -33,7 +33,7 @@ namespace parking
     {
         const double sign = change + trailingBefore > 0.0 ? 1.0 : -1.0;
         const double c = sign * change, b = sign * trailingBefore;
-        // With both of one sign what is seen rises with the lag. A value that overtook its command says nothing.
+        // If both have the same sign, the trailing grows with the lag. A value that overtook its command is ignored.
         if (c + b < least || std::min(c, b) < -0.1 * least)
             return;
         double low = SHORTEST_LAG, high = LONGEST_LAG;

@@ -11,12 +11,12 @@ namespace parking
 {
     namespace
     {
-        constexpr double MIN_BRAKE = 0.3;      // m/s^2 of commanded deceleration that say something about the brake
-        constexpr double STEADY = 0.15;        // m/s^2 by which it may differ from the period before
-        constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less is a broken car
-        constexpr double BRAKE_GAIN = 0.4;     // share of what a period says that is believed
-        constexpr double MIN_TURN = 0.015;     // radians that wheels should have turned by
-        constexpr double HARDLY = 0.05;        // share of it that counts as standing still
+        constexpr double MIN_BRAKE = 0.3;      // m/s^2, minimum commanded deceleration for learning the brake
+        constexpr double STEADY = 0.15;        // m/s^2, maximum change since the previous period
+        constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less indicates a defect
+        constexpr double BRAKE_GAIN = 0.4;     // share of a period's estimate that is applied
+        constexpr double MIN_TURN = 0.015;     // radians, minimum expected turn of the wheels
+        constexpr double HARDLY = 0.05;        // share of the expected turn up to which the wheels stand still
     }                                          // namespace
 
     void ResponseParameters::validate() const
@@ -91,7 +91,7 @@ namespace parking
         const Command &done = delay_.arrived(), &last = delay_.arrived(1);
         const double before = estimator_.measuredSpeed(), sign = before < 0.0 ? -1.0 : 1.0;
         const double told = -sign * done.acceleration, slower = sign * (before - measurement.speed) / period_;
-        // A car that comes to rest within the period slows down for a part of it only.
+        // A car that stops within the period brakes for a part of it only.
         if (told < MIN_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
             std::abs(before) < 1.5 * told * period_)
             return;
@@ -100,8 +100,8 @@ namespace parking
 
     void CarResponse::watchWheels(const Measurement &measurement)
     {
-        // Without a delay that is sure it may be any, and the lag is not known either: wheels that are as slow as can
-        // be thought of move more than hardly.
+        // While the delay is uncertain, any delay is possible and the lag is unknown, too. Even wheels with the largest
+        // expected lag move by more than this.
         const bool isSure = delay_.isSure();
         const double lag = isSure ? steeringLag_.lag() : 0.0;
         std::size_t delay = isSure ? delay_.periods() : 0;
@@ -136,7 +136,7 @@ namespace parking
         result.commandDelay = delay_.time();
         result.delayIsSure = true;
         result.driveLag = driveLag_.lag();
-        // Wheels that stick have begun to look slow.
+        // Sticking wheels have raised the estimated lag.
         if (!wheelsStick())
             result.steeringLag = steeringLag_.lag();
         return result;

@@ -11,10 +11,10 @@ namespace parking
 {
     namespace
     {
-        /** With less than this of any limit no drive ends within sensible time. */
+        /** Below this value of any limit, drives take unreasonably long. */
         constexpr double MIN_LIMIT = 0.01;
 
-        /** Greatest squared speed between two knots. */
+        /** Maximum squared speed between two knots. */
         double capBetween(const SteeringKnot &a, const SteeringKnot &b, const SpeedLimits &limits,
                           const Vehicle &vehicle)
         {

@@ -7,9 +7,9 @@ namespace parking
 {
     namespace
     {
-        /** A speed below this, m/s, says nothing about the gear. */
+        /** Speeds below this, in m/s, do not define a gear. */
         constexpr double STANDING = 1e-6;
-        /** Seconds in which nothing happens that matters. */
+        /** Negligible duration in seconds. */
         constexpr double NO_TIME = 1e-9;
 
         MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part)
