@@ -26,16 +26,16 @@ namespace parking
         constexpr double MAX_CURVATURE = 1.01;  // maximum curvature of a path over the car's: rounding of turning radii
         constexpr double ROUNDING_TURN = 1e-9;  // radians; less is rounding of headings and not a corner
         constexpr double EXACT = 1e-5;          // metres from a place within which the car stands there
-        constexpr double EXACT_YAW = 1e-6;      // radians likewise
+        constexpr double EXACT_YAW = 1e-6;      // radians, for the same purpose
         constexpr double BESIDE = 0.01;         // metres from a place that two gentle arcs correct
-        constexpr double BESIDE_YAW = 0.03;     // radians likewise
+        constexpr double BESIDE_YAW = 0.03;     // radians, for the same purpose
         constexpr double END = 0.02;            // metres beside the end of the path above which the car shunts to it
-        constexpr double END_YAW = 0.03;        // radians likewise
+        constexpr double END_YAW = 0.03;        // radians, for the same purpose
 
         constexpr double STEP = 0.05;               // metres that the simulated car drives at a time
         constexpr double BACK_ON_PATH = 0.005;      // metres beside the stretch within which the car is on it
-        constexpr double BACK_IN_YAW = 0.005;       // radians likewise
-        constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m likewise
+        constexpr double BACK_IN_YAW = 0.005;       // radians, for the same purpose
+        constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m, for the same purpose
         constexpr double SEARCH_AHEAD = 2.0;        // metres of the stretch searched for the nearest place
         constexpr double JOIN_LENGTH = 1.0;         // metres over which a car returns to the path
         constexpr double MIN_JOIN = 0.3;            // metres; in less, even millimetres require much steering

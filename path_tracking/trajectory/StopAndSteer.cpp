@@ -17,10 +17,10 @@ namespace parking
     {
         constexpr double CLOTHOID_GRID = 0.01;    // metres between two knots where the curvature changes
         constexpr double SAME_CURVATURE = 1e-9;   // 1/m
-        constexpr double CURVATURE_SLACK = 1e-3;  // share by which a path may exceed the car's curvature: rounding
+        constexpr double CURVATURE_SLACK = 1e-3;  // relative excess of a path's curvature over the car's: rounding
         constexpr double SHORTEST_PIECE = 1e-9;   // metres
 
-        /** What Vehicle::validate() asks for but the least limits: what is used of a car's may be less. */
+        /** Vehicle::validate() without its minimum limits, because shares of a car's limits may be lower. */
         void check(const Vehicle &vehicle)
         {
             const Require require("vehicle " + inQuotes(vehicle.name));
@@ -52,7 +52,7 @@ namespace parking
             return std::clamp(vehicle.steeringAngle(curvature), -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
         }
 
-        /** A way between two standstills. */
+        /** A path between two standstills. */
         struct Leg
         {
             int direction{1};

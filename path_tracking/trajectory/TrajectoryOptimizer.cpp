@@ -19,21 +19,21 @@ namespace parking
 {
     namespace
     {
-        constexpr double RANGE = 1.5;            // metres within which obstacles matter, in the first round
-        constexpr double ENOUGH_GAIN = 3e-3;     // share of the cost for which another round is worth its time
-        constexpr double PROMISING = 1.05;       // share of the best cost that improving a solution may make up for
-        constexpr double LIKELY = 1.02;          // share of it up to which driving along a path may cost at least
-        constexpr double ALIKE = 1.2;            // metres between paths for which one program is enough
-        constexpr double SAME_COST = 1e-3;       // share of the cost up to which two solutions count as one
-        constexpr std::size_t MAX_RETRIES = 2;   // of a motion that is quicker than what holds, but does not
-        constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
-        constexpr std::size_t MAX_DROPS = 4;     // such attempts
-        constexpr double LIMITS_LEFT = 2e-5;     // share of the limits that is left for rounding
-        constexpr double MAX_INTERVALS = 1e4;    // of a motion that is searched for: 8 kB and 0.2 ms each
-        /** Of programs that begin with a guess, and of those without a stretch: where that works it works soon. */
+        constexpr double RANGE = 1.5;           // metres within which obstacles are considered in the first round
+        constexpr double ENOUGH_GAIN = 3e-3;    // share of the cost that another round must gain
+        constexpr double PROMISING = 1.05;      // ratio to the best cost up to which a solution is improved
+        constexpr double LIKELY = 1.02;         // ratio to the best cost up to which the lower bound of a path is tried
+        constexpr double ALIKE = 1.2;           // metres between paths that share one program
+        constexpr double SAME_COST = 1e-3;      // relative difference of cost below which two solutions are equal
+        constexpr std::size_t MAX_RETRIES = 2;  // of an invalid motion that is faster than the best valid one
+        constexpr double LONGEST_DROPPED = 0.5;  // maximum length in metres of a stretch that is dropped
+        constexpr std::size_t MAX_DROPS = 4;     // attempts to drop stretches
+        constexpr double LIMITS_LEFT = 2e-5;     // share of the limits reserved for rounding
+        constexpr double MAX_INTERVALS = 1e4;    // of an optimised motion: 8 kB and 0.2 ms each
+        /** Options of programs that start from a guess, and of those without a stretch, which succeed soon or never. */
         constexpr InteriorPointOptions FROM_GUESS{}, DROPPING{5e-3, 2e-5, 40};
 
-        /** Compares at equal shares of the lengths. */
+        /** Whether two paths are near each other at equal shares of their lengths. */
         bool isNear(const Path &a, const Path &b)
         {
             constexpr double LONGEST_STEP = 2.0;  // metres between two comparisons
@@ -46,7 +46,7 @@ namespace parking
             return true;
         }
 
-        /** Do two paths change their direction equally often, with each stretch nowhere farther from the other's? */
+        /** Whether two paths have equal numbers of cusps and all of their stretches are near each other. */
         bool areAlike(const Path &a, const Path &b)
         {
             const std::vector<Stretch> ofA = a.stretches(), ofB = b.stretches();
@@ -118,7 +118,7 @@ namespace parking
         return {std::move(stretches), body_, step, options_.initialSteering, options_.finalSteering, options_.sharpest};
     }
 
-    /** One optimisation: programs are solved one after another until a motion is found and no longer gets better. */
+    /** One optimisation: solves programs one after another until a motion is found and improves no further. */
     class TrajectoryOptimizer::Search
     {
     public:
@@ -129,14 +129,14 @@ namespace parking
         {
         }
 
-        /** Looks for a motion near one of the paths \e which that costs less than \e limit, and for its path. */
+        /** Searches a motion near one of the paths \e which with a cost below \e limit, and the index of its path. */
         std::optional<MotionSolution> run(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
                                           double limit)
         {
             std::vector<Attempt> attempts;
             for (const std::size_t i : which)
                 attempts.emplace_back(owner_, world_, paths[i], i);
-            // What promises to be quick comes first, so that the rest need not be looked at.
+            // The path with the lowest bound comes first, so that the others may be skipped.
             std::stable_sort(attempts.begin(), attempts.end(),
                              [](const Attempt &a, const Attempt &b) { return a.minCost < b.minCost; });
             std::vector<MotionSolution> solutions;
@@ -152,14 +152,14 @@ namespace parking
             return found;
         }
 
-        /** How the search went. */
+        /** Statistics of the search. */
         const MotionSolver &solver() const
         {
             return solver_;
         }
 
     private:
-        /** A path, and what has been learnt about it where it could not be solved. */
+        /** A path, with the settings of its next program after failures. */
         struct Attempt
         {
             Attempt(const TrajectoryOptimizer &owner, const MotionWorld &world, const Path &from, std::size_t index)
@@ -180,10 +180,10 @@ namespace parking
             MotionView view;
             double step;
             std::optional<MotionOutline> outline;
-            double minCost;  // of driving along it if the wheels needed no time to turn
+            double minCost;  // lower bound: of driving along it with instant steering
         };
 
-        /** The directions that are driven one after another. */
+        /** The directions of travel of consecutive stretches. */
         static std::vector<int> directionsOf(const MotionProblem &problem)
         {
             std::vector<int> directions;
@@ -201,7 +201,7 @@ namespace parking
             return least;
         }
 
-        /** Solves a program near each path that may be the best, and is not like one that was solved. */
+        /** Solves a program near each path that may be the best and differs from the solved ones. */
         void solveEach(std::vector<Attempt> &attempts, double limit, std::vector<MotionSolution> &solutions)
         {
             std::vector<const Path *> solved;
@@ -239,13 +239,14 @@ namespace parking
                 [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); }, view);
         }
 
-        /** A solution near a path; none leaves the attempt more careful than it was. What is cheaper than \e limit and
-            ran into something that was not known to be in the way is solved again from where it ended. */
+        /** A solution near a path; without one the attempt becomes more careful. If a motion below \e limit collides
+            with an obstacle that was not considered, the program is solved again from that motion. */
         std::optional<MotionSolution> solve(Attempt &attempt, double limit)
         {
             MotionOutcome found = solveAlong(*attempt.outline, attempt.view);
-            // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
-            // known already, more of everything. What had none needs more room.
+            // An invalid solution requires more obstacles: first those it touched, and if these were considered
+            // already, a larger range and finer checkpoints. Without a solution it needs a smaller margin and more
+            // nodes.
             if (found.holds || found.hasLearnt)
                 return rightOf(std::move(found), limit, [&] { return solveAlong(*attempt.outline, attempt.view); });
             attempt.view.spacing *= 0.5;
@@ -260,25 +261,25 @@ namespace parking
             return std::nullopt;
         }
 
-        /** The solution that holds. What ran into something is solved again as often as it does so and something is
-            learnt from it: from where it ended, or, where that is of no use, \e anew. */
+        /** The valid solution. After a collision that adds obstacles, the program is solved again: from the last
+            motion, or with \e restart if that cannot serve as a guess. */
         std::optional<MotionSolution> rightOf(MotionOutcome found, double limit,
-                                              const std::function<MotionOutcome()> &anew)
+                                              const std::function<MotionOutcome()> &restart)
         {
             for (std::size_t i = 0; i < MAX_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
             {
                 if (found.solution->cost >= limit)
                     break;
-                found = found.hasStrayed ? anew() : solver_.solveAgain(*found.solution);
+                found = found.hasStrayed ? restart() : solver_.solveAgain(*found.solution);
             }
             return found.holds ? std::move(found.solution) : std::nullopt;
         }
 
-        /** Improves what was found, cheapest first, and gives the best. Of solutions that are the same only one. */
+        /** Improves the solutions found, cheapest first, and returns the best. Equal solutions are improved once. */
         std::optional<MotionSolution> improveBest(std::vector<MotionSolution> &solutions)
         {
             std::optional<MotionSolution> found;
-            std::vector<std::pair<double, std::vector<int>>> done;  // costs and directions, before they were improved
+            std::vector<std::pair<double, std::vector<int>>> done;  // costs and directions before the improvement
             for (MotionSolution &solution : solutions)
             {
                 if (found && (!solver_.mayGoOn() || solution.cost > PROMISING * found->cost))
@@ -297,7 +298,7 @@ namespace parking
             return found;
         }
 
-        /** Chooses the lines anew along what was found, as often as that is worth it. */
+        /** Chooses the lines again along the solution while that gains enough. */
         void improve(MotionSolution &best)
         {
             for (std::size_t round = 0; round < owner_.options_.maxRounds && solver_.mayGoOn(); ++round)
@@ -311,8 +312,8 @@ namespace parking
             }
         }
 
-        /** Tries to do without a stretch, again and again, the shortest first: a short one costs more time than its
-            way is worth, and the program can move a cusp, but never do away with it. */
+        /** Attempts to drop stretches, the shortest first. A short stretch costs more time than its length saves, and
+            the program can move a cusp but not remove it. */
         void dropStretches(MotionSolution &best)
         {
             std::size_t attempts = 0;
@@ -371,7 +372,7 @@ namespace parking
             throw Error("trajectory: there is no path");
         OptimizedTrajectory result;
         result.fallback = true;
-        // Within the limits that are asked for, but along the paths, which may need all of the steering angle.
+        // Within the requested limits, except that the paths may need the full steering angle.
         Vehicle used = body_;
         used.maxSteeringAngle = checker_.vehicle().maxSteeringAngle;
         std::vector<std::size_t> searched;  // of the paths
@@ -404,7 +405,7 @@ namespace parking
         auto found = search.run(paths, which, costOf(result.motion));
         result.rounds = search.solver().rounds();
         result.iterations = search.solver().iterations();
-        // Where even turning the wheels in no time would cost as much nothing was solved, and the solver has no reason.
+        // If even instant steering would cost as much, no program was solved, and the solver has no reason.
         const bool isPointless = !found && search.solver().reason().empty();
         if (isPointless || (found && costOf(found->motion) >= costOf(result.motion)))
             result.reason = "stopping to steer is equally fast";

@@ -14,14 +14,14 @@ namespace parking
         using Points = std::vector<GuessPoint>;
 
         constexpr double GRID = 0.02;            // metres between two points along a path
-        constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, about
-        constexpr double STEERING_WINDOW = 0.5;  // metres over which a guess turns the wheels, to either side
-        constexpr double MIN_WAY = 1e-3;         // metres between two points, so that a drive takes time
-        constexpr double BEND = 6.0;             // metres over which a stretch is bent to another end
-        constexpr double LEVER = 1.5;            // metres that a radian counts for when poses are compared
+        constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, approximately
+        constexpr double STEERING_WINDOW = 0.5;  // metres before and after a jump over which a guess steers
+        constexpr double MIN_WAY = 1e-3;  // metres, minimum distance of two points, so that the duration is positive
+        constexpr double BEND = 6.0;      // metres over which a stretch is bent to another end
+        constexpr double LEVER = 1.5;     // metres per radian when poses are compared
         constexpr std::size_t FEWEST_POINTS = 3;
 
-        /** Means of \e values over \e reach neighbours to either side, as far as there are any. */
+        /** Means of \e values over up to \e reach neighbours on either side. */
         std::vector<double> averaged(const std::vector<double> &values, std::size_t reach)
         {
             std::vector<double> sums(values.size() + 1, 0.0), means(values.size());
@@ -53,7 +53,7 @@ namespace parking
             return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.yaw + b.yaw)};
         }
 
-        /** Of those that leave a stretch between \e first and \e last, the point nearest to \e pose. */
+        /** The point nearest to \e pose among those that leave a stretch between \e first and \e last. */
         std::size_t nearest(const Points &points, std::size_t first, std::size_t last, const Pose &pose)
         {
             const auto least = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(first),
@@ -63,7 +63,7 @@ namespace parking
             return static_cast<std::size_t>(least - points.begin());
         }
 
-        /** Cuts the end off where that is nearest to \e pose. */
+        /** Cuts the end off at the point nearest to \e pose. */
         void cutTowards(Points &points, const Pose &pose)
         {
             if (points.size() > FEWEST_POINTS)
@@ -102,7 +102,7 @@ namespace parking
         const double grid = length / static_cast<double>(parts);
         std::vector<double> angles;
         Pose pose = path.start;
-        double behind = 0.0;  // metres of the pieces that are passed
+        double behind = 0.0;  // metres of the completed pieces
         std::size_t piece = 0;
         for (std::size_t i = 0; i <= parts; ++i)
         {
@@ -163,7 +163,7 @@ namespace parking
                                            [](double value, const GuessPoint &point) { return value < point.t; });
         const GuessPoint &a = *(next - 1), &b = *next;
         const double part = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
-        // Speed is linear in time, and the way therefore quadratic.
+        // Speed is linear in time, and the distance therefore quadratic.
         const double mean = 0.5 * (a.speed + b.speed);
         const double way = part * (a.speed + 0.5 * part * (b.speed - a.speed)) / mean;
         return {t,

@@ -155,7 +155,7 @@ namespace parking
             rows(3, NODE_DURATION) = -1.0;
             rows(3, SECOND + NODE_DURATION) = 1.0;
         }
-        // Entries that keep their value are no variables.
+        // Fixed entries are not variables.
         for (int e = 0; e < NODE_SIZE; ++e)
         {
             if (problem_.isFixed(k, e))
