@@ -296,16 +296,16 @@ namespace parking
                 if (!body.search || !body.check)
                     return {};
                 const bool constructed = scenario_.slot && parameters_.entryMode != EntryMode::Searched;
-                std::vector<ReverseParkingResult> ways;
+                std::vector<ReverseParkingResult> entries;
                 if (constructed)
-                    ways = slotEntries(level, body);
+                    entries = slotEntries(level, body);
                 // If no path out of the slot was found, no search into it is made.
-                if (ways.empty() && (onlySlotEntry_ || (constructed && inStretches_)))
+                if (entries.empty() && (onlySlotEntry_ || (constructed && inStretches_)))
                     return {};
                 Candidate best;
                 if (onlySlotEntry_)
                 {
-                    best.manoeuvre = ways.front();
+                    best.manoeuvre = entries.front();
                     best.cost = 0.0;
                 }
                 else
@@ -316,8 +316,8 @@ namespace parking
                         level = levelInStretches(most, level.radius);
                         body = checkers(level);
                     }
-                    if (!ways.empty())
-                        best = throughManoeuvre(ways, fromStart(level), *body.search);
+                    if (!entries.empty())
+                        best = throughManoeuvre(entries, fromStart(level), *body.search);
                     if (!best.found() || !inStretches_)
                     {
                         Candidate whole = allTheWay(fromStart(level), *body.search, last);
@@ -327,7 +327,7 @@ namespace parking
                 }
                 best.level = level;
                 best.checker = body.check;
-                best.stretches = ways.empty() ? 0 : ways.front().path.stretches().size();
+                best.stretches = entries.empty() ? 0 : entries.front().path.stretches().size();
                 return best;
             }
 
@@ -342,14 +342,14 @@ namespace parking
                         std::max(level.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
                 const ReverseParking parking(scenario_.vehicle, sweep);
                 const FootprintQueries queries = queriesOf(*body.check);
-                std::vector<ReverseParkingResult> ways = parking.planAll(*scenario_.slot, queries);
-                ReverseParkingResult result = ways.front();
-                ways.erase(std::remove_if(ways.begin(), ways.end(),
-                                          [](const ReverseParkingResult &way)
-                                          { return !way.fits() || way.path.pieces.empty(); }),
-                           ways.end());
-                if (!ways.empty())
-                    return ways;
+                std::vector<ReverseParkingResult> entries = parking.planAll(*scenario_.slot, queries);
+                ReverseParkingResult result = entries.front();
+                entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                             [](const ReverseParkingResult &entry)
+                                             { return !entry.fits() || entry.path.pieces.empty(); }),
+                              entries.end());
+                if (!entries.empty())
+                    return entries;
                 if (inStretches_)
                 {
                     const auto leave = [&](const SlotExitTask &task)
@@ -364,7 +364,7 @@ namespace parking
                 }
                 if (!verdict_)
                     verdict_ = std::move(result);
-                return ways;
+                return entries;
             }
 
             struct SearchTask
@@ -389,20 +389,20 @@ namespace parking
                         parameters_.expansionsPerGap};
             }
 
-            /** Plans to the start of one of \e ways, and appends it. */
-            Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &ways, SearchTask task,
+            /** Plans to the start of one of \e entries, and appends it. */
+            Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &entries, SearchTask task,
                                        const FootprintChecker &checker)
             {
                 Candidate candidate;
-                for (const ReverseParkingResult &way : ways)
-                    task.to.push_back(way.path.start);
+                for (const ReverseParkingResult &entry : entries)
+                    task.to.push_back(entry.path.start);
                 candidate.approach = search(checker, task);
-                for (const ReverseParkingResult &way : ways)
-                    if (isSamePose(candidate.approach.end(), way.path.start, SAME_POSE))
+                for (const ReverseParkingResult &entry : entries)
+                    if (isSamePose(candidate.approach.end(), entry.path.start, SAME_POSE))
                     {
-                        candidate.manoeuvre = way;
-                        candidate.goal = way.goal;
-                        candidate.arcs = joined(candidate.approach, way.path);
+                        candidate.manoeuvre = entry;
+                        candidate.goal = entry.goal;
+                        candidate.arcs = joined(candidate.approach, entry.path);
                         candidate.cost = cost(candidate.arcs);
                         break;
                     }

@@ -153,15 +153,15 @@ namespace parking
         return state;
     }
 
-    CarState CarResponse::ahead(Path *way) const
+    CarState CarResponse::ahead(Path *path) const
     {
         CarState state = now();
         for (std::size_t i = 0; i < delay_.periods(); ++i)
-            state = after(state, delay_.underWay(i), brakeScale_, way);
+            state = after(state, delay_.underWay(i), brakeScale_, path);
         return state;
     }
 
-    CarState CarResponse::after(const CarState &state, const Command &command, double brakeScale, Path *way) const
+    CarState CarResponse::after(const CarState &state, const Command &command, double brakeScale, Path *path) const
     {
         CarState next = state;
         const double offset = estimator_.steeringOffset();
@@ -189,8 +189,8 @@ namespace parking
         const PathPiece piece(vehicle_.curvature(0.5 * (state.wheels + next.wheels)), length);
         next.pose = advance(state.pose, piece);
         next.driven += length;
-        if (way != nullptr)
-            way->append(piece);
+        if (path != nullptr)
+            path->append(piece);
         return next;
     }
 

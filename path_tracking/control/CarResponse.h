@@ -106,14 +106,14 @@ namespace parking
 
         /** \brief The predicted state when the command of this period arrives, after all pending commands.
 
-            \param way if given, receives the path driven until then */
-        CarState ahead(Path *way = nullptr) const;
+            \param path if given, receives the path driven until then */
+        CarState ahead(Path *path = nullptr) const;
 
         /** \brief The state after \e command is applied to \e state for \e duration seconds.
 
             \param brakeScale share of a commanded deceleration that the car reaches
-            \param way if given, receives the piece of path */
-        CarState after(const CarState &state, const Command &command, double brakeScale, Path *way = nullptr) const;
+            \param path if given, receives the piece of path */
+        CarState after(const CarState &state, const Command &command, double brakeScale, Path *path = nullptr) const;
 
         /** \brief The command for a required acceleration over ground. It may exceed the car's limit. */
         double accelerationFor(double wanted, double speed) const;

@@ -506,8 +506,8 @@ namespace parking
     {
         constexpr int MAX_PERIODS = 600;
         const double brakes = std::min(response_.brakeScale(), 1.0 - parameters_.brakeReserve);
-        Path way{estimator().pose(), {}};
-        CarState car = response_.after(response_.ahead(&way), command, brakes, &way);
+        Path path{estimator().pose(), {}};
+        CarState car = response_.after(response_.ahead(&path), command, brakes, &path);
         double s = s_, last = command.steering;
         for (int i = 0; i < MAX_PERIODS && std::abs(car.speed) > STANDING; ++i)
         {
@@ -515,9 +515,9 @@ namespace parking
             const Command next = braking(car, place, last);
             s = place.s;
             last = next.steering;
-            car = response_.after(car, next, brakes, &way);
+            car = response_.after(car, next, brakes, &path);
         }
-        return way;
+        return path;
     }
 
     void TrackingController::askGuard(TrackingStep &step)

@@ -11,12 +11,12 @@ namespace parking
         constexpr double WAY = 0.1;    // metres
         /** Metres of a part above which the whole tolerance applies. The deviation of an arc grows with its length. A
             car may therefore park within hundredths of a millimetre of an obstacle. */
-        constexpr double FULL_TOLERANCE_WAY = 0.02;
+        constexpr double FULL_TOLERANCE_LENGTH = 0.02;
         constexpr double MIN_TOLERANCE = 0.005;  // share of the tolerance, for rounding
 
         double toleranceOf(double length)
         {
-            return MOTION_CHECK_TOLERANCE * std::clamp(std::abs(length) / FULL_TOLERANCE_WAY, MIN_TOLERANCE, 1.0);
+            return MOTION_CHECK_TOLERANCE * std::clamp(std::abs(length) / FULL_TOLERANCE_LENGTH, MIN_TOLERANCE, 1.0);
         }
 
         constexpr double COVERED = 0.5;    // share of the enlargement of the body that an arc may deviate from a part

@@ -49,7 +49,7 @@ namespace parking
             knots.back() = {knots.back().t, v, steering};
     }
 
-    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double longest, double way,
+    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double longest, double length,
                     const std::function<bool(const MotionPart &)> &visit)
     {
         Pose pose = motion.start;
@@ -59,7 +59,7 @@ namespace parking
             const double h = b.t - a.t, driven = h * 0.5 * (std::abs(a.v) + std::abs(b.v));
             const double fastest = h * std::max(std::abs(a.v), std::abs(b.v));
             const double parts =
-                driven == 0.0 ? 1.0 : std::max({1.0, std::ceil(h / longest), std::ceil(fastest / way)});
+                driven == 0.0 ? 1.0 : std::max({1.0, std::ceil(h / longest), std::ceil(fastest / length)});
             MotionKnot from = a;
             for (double k = 1.0; k <= parts; k += 1.0)
             {

@@ -66,11 +66,11 @@ namespace parking
     /** \brief Integrates \e motion (fourth-order Runge-Kutta) and calls \e visit with its parts in order until it
         returns false.
 
-        No part is longer than \e step seconds or \e way metres. Each standstill is one part. With parts of 0.02 s the
-        poses are accurate to a micrometre.
+        No part is longer than \e step seconds or \e length metres. Each standstill is one part. With parts of 0.02 s
+       the poses are accurate to a micrometre.
 
         \return whether \e visit accepted all parts */
-    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double step, double way,
+    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double step, double length,
                     const std::function<bool(const MotionPart &)> &visit);
 
     /** \brief The last pose of the motion; yaw not wrapped. */

@@ -89,7 +89,7 @@ namespace parking::python
                 add up.
 
                 \param arc from the row before to this one, if it were not for what it misses it by
-                \return whether there is such a way */
+                \return whether there is such a path */
             bool drive(const PathPiece &arc, const Pose &to)
             {
                 const std::optional<Path> exact = biarc(reached_, to, arc.direction());

@@ -62,7 +62,7 @@ namespace parking
         GuessPoint at(double t) const;
 
     private:
-        void setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle);
+        void setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle);
 
         int direction_;
         std::vector<GuessPoint> points_;

@@ -143,8 +143,8 @@ namespace parking
             const Pose from = poseAt(k, 0.0), to = poseAt(k, 1.0);
             if (points.empty())
                 points.push_back({k, 0.0, from, true});
-            const double way = positionDistance(from, to) + 0.5 * wheelbase * std::abs(to.yaw - from.yaw);
-            const double parts = std::max(1.0, std::ceil(way / spacing));
+            const double distance = positionDistance(from, to) + 0.5 * wheelbase * std::abs(to.yaw - from.yaw);
+            const double parts = std::max(1.0, std::ceil(distance / spacing));
             for (double p = 1.0; p <= parts; p += 1.0)
                 points.push_back({k, p / parts, poseAt(k, p / parts), false});
         }
