@@ -32,9 +32,9 @@ namespace parking
 
     /** \brief Estimates the time constant of a first-order lag from how far a value trails its command.
 
-        Suppose the command changes by c over a period of h seconds. A value that trailed by b before then trails by
-        the sum of c o and b q, with q = exp(-h / T) and o = T / h (1 - q). Bisection finds the lag T that explains the
-       measurement, and the estimate moves by a share of the difference.
+        Suppose the command changes by c over a period of h seconds, and the value trailed by b before. Then it trails
+        by the sum of c o and b q after it. Here q = exp(-h / T) and o = T / h (1 - q). Bisection finds the lag T that
+        explains the measurement, and the estimate moves by a share of the difference.
 
         This holds for an angle behind a command of constant rate, and for the mean acceleration of a period behind a
         stepped command. Angles are used as measured: an offset common to command and measurement has no effect. */

@@ -51,8 +51,8 @@ namespace parking
         stretch that starts with another heading, and at the end of the path. A manoeuvre after a grid path is therefore
         driven exactly.
 
-        Throws parking::Error naming the piece for a number that is not finite, for a piece that both turns and drives,
-        and for a curvature beyond the car's. The curvature may exceed it by 1 %; steering is clamped to the car's
-        limit. Throws for a path without length, and naming the deviation if it exceeds maxCornerRadii. */
+        Throws parking::Error naming the piece for a number that is not finite, and for a piece that both turns and
+        drives. Throws also for a curvature that exceeds the car's by more than 1 %; below that, steering is clamped to
+        the limit. Throws for a path without length, and naming the deviation if it exceeds maxCornerRadii. */
     DrivablePath makeDrivable(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
 }  // namespace parking

@@ -67,7 +67,7 @@ namespace parking
         returns false.
 
         No part is longer than \e step seconds or \e length metres. Each standstill is one part. With parts of 0.02 s
-       the poses are accurate to a micrometre.
+        the poses are accurate to a micrometre.
 
         \return whether \e visit accepted all parts */
     bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double step, double length,

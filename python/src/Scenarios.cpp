@@ -224,8 +224,8 @@ Scenario.read(path)                                  from a file: YAML or TPCAP 
 Scenario.from_polygons(polygons, start, goal)        from lists or arrays of corners
 Scenario.from_grid(array, start, goal, resolution=)  from a NumPy array or the path of a map
 
-Coordinates are those of the given file or data, in metres and radians. Poses (x, y, yaw) are of the midpoint of the rear
-axle. A scenario is immutable; replace() returns a modified copy.)";
+Coordinates are those of the given file or data, in metres and radians. Poses (x, y, yaw) are of the midpoint of the
+rear axle. A scenario is immutable; replace() returns a modified copy.)";
     }  // namespace
 
     ScenarioPointer scenarioFrom(const py::handle &value, const std::string &field)

@@ -13,7 +13,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-// Conversions between values of Python and of the project. An invalid value throws a parking::Error that names the field.
+// Conversions between values of Python and of the project. Invalid values throw parking::Error naming the field.
 namespace parking::python
 {
     namespace py = pybind11;
