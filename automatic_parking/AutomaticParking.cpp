@@ -114,7 +114,7 @@ namespace parking
                 truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
                 scenario_.start = drive.log.back().control.estimate;
                 steering_ = drive.trajectory.back().steering;
-                if (judge(drive, reason))
+                if (isFinished(drive, reason))
                     break;
                 if (count >= parameters_.maxReplans)
                 {
@@ -148,7 +148,7 @@ namespace parking
                 const DriveResult &drive = result_.legs.back().drive;
                 truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
                 std::string reason;
-                if (!judge(drive, reason))
+                if (!isFinished(drive, reason))
                     finish(drive.arrived ? ParkingStatus::MissedGoal : ParkingStatus::Stopped, reason);
             }
             return close(truth);
@@ -376,7 +376,7 @@ namespace parking
         }
 
         /** Whether parking is finished. Otherwise \e reason is set to that of the replan. */
-        bool judge(const DriveResult &drive, std::string &reason)
+        bool isFinished(const DriveResult &drive, std::string &reason)
         {
             if (drive.evaluation.collisions > 0)
             {

@@ -35,10 +35,10 @@ namespace parking
 
     double MotionSolver::left() const
     {
-        return (spares_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
+        return (isBudgetLowered_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
     }
 
-    bool MotionSolver::mayGoOn() const
+    bool MotionSolver::mayContinue() const
     {
         return !isStopped_ && (budget_ == 0.0 || left() > 0.0);
     }

@@ -86,13 +86,13 @@ namespace parking
         MotionOutcome refine(MotionSolution solution);
 
         /** \brief Lowers the remaining budget of work; call it once a valid motion is available. */
-        void spareWork()
+        void lowerBudget()
         {
-            spares_ = true;
+            isBudgetLowered_ = true;
         }
 
         /** \brief Whether work is left and the solver was not interrupted. */
-        bool mayGoOn() const;
+        bool mayContinue() const;
 
         /** \brief Reason why the last program gave no valid motion. */
         const std::string &reason() const
@@ -123,7 +123,7 @@ namespace parking
         const MotionWorld &world_;
         std::vector<std::size_t> touched_;  // pieces that motions touched
         bool isStopped_{false};             // by the caller
-        bool spares_{false};
+        bool isBudgetLowered_{false};
         double work_{0.0}, budget_{0.0};
         std::string reason_;
         std::size_t rounds_{0}, iterations_{0};

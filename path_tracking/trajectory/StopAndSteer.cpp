@@ -88,9 +88,9 @@ namespace parking
             check(piece, i, vehicle);
             if (piece.driven() <= SHORTEST_PIECE)
                 continue;
-            const bool goesOn = before != nullptr && before->direction() == piece.direction() &&
-                                std::abs(before->endCurvature() - piece.curvature) <= SAME_CURVATURE;
-            if (!goesOn)
+            const bool continues = before != nullptr && before->direction() == piece.direction() &&
+                                   std::abs(before->endCurvature() - piece.curvature) <= SAME_CURVATURE;
+            if (!continues)
                 legs.emplace_back();
             legs.back().add(piece, vehicle);
             before = &piece;

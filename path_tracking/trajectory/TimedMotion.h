@@ -84,8 +84,9 @@ namespace parking
         Acceleration and steering rate of a sample apply after it; those of the last sample apply before it. */
     Trajectory sample(const TimedMotion &motion, const Vehicle &vehicle, double step);
 
-    /** \brief Cost of a trajectory in the Trajectory Planning Competition of Automated Parking (TPCAP): J = 100 T + 10
-     * effort + 10 * steering + 5 * gear changes. */
+    /** \brief Cost of a trajectory in the Trajectory Planning Competition of Automated Parking (TPCAP).
+
+        It is J = 100 T + 10 times the control effort + 10 times the steering integral + 5 times the gear changes. */
     struct TpcapCost
     {
         double time{0.0};              ///< T, seconds

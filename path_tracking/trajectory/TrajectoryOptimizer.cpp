@@ -207,14 +207,15 @@ namespace parking
             std::vector<const Path *> solved;
             for (Attempt &attempt : attempts)
             {
-                if (!solver_.mayGoOn() || attempt.minCost > (solutions.empty() ? limit : LIKELY * minCost(solutions)))
+                if (!solver_.mayContinue() ||
+                    attempt.minCost > (solutions.empty() ? limit : LIKELY * minCost(solutions)))
                     return;
                 if (std::any_of(solved.begin(), solved.end(),
                                 [&attempt](const Path *path) { return areAlike(*path, attempt.local); }))
                     continue;
                 if (auto solution = solve(attempt, solutions.empty() ? limit : minCost(solutions)))
                 {
-                    solver_.spareWork();
+                    solver_.lowerBudget();
                     solved.push_back(&attempt.local);
                     solutions.push_back(std::move(*solution));
                 }
@@ -266,7 +267,7 @@ namespace parking
         std::optional<MotionSolution> rightOf(MotionOutcome found, double limit,
                                               const std::function<MotionOutcome()> &restart)
         {
-            for (std::size_t i = 0; i < MAX_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
+            for (std::size_t i = 0; i < MAX_RETRIES && !found.holds && found.hasLearnt && solver_.mayContinue(); ++i)
             {
                 if (found.solution->cost >= limit)
                     break;
@@ -282,7 +283,7 @@ namespace parking
             std::vector<std::pair<double, std::vector<int>>> done;  // costs and directions before the improvement
             for (MotionSolution &solution : solutions)
             {
-                if (found && (!solver_.mayGoOn() || solution.cost > PROMISING * found->cost))
+                if (found && (!solver_.mayContinue() || solution.cost > PROMISING * found->cost))
                     break;
                 const double cost = solution.cost;
                 std::vector<int> directions = directionsOf(solution.problem);
@@ -301,7 +302,7 @@ namespace parking
         /** Chooses the lines again along the solution while that gains enough. */
         void improve(MotionSolution &best)
         {
-            for (std::size_t round = 0; round < owner_.options_.maxRounds && solver_.mayGoOn(); ++round)
+            for (std::size_t round = 0; round < owner_.options_.maxRounds && solver_.mayContinue(); ++round)
             {
                 MotionOutcome found = solver_.solveAgain(best);
                 const double gain = found.holds ? best.cost - found.solution->cost : 0.0;
@@ -328,7 +329,7 @@ namespace parking
                                  { return stretches[a].length() < stretches[b].length(); });
                 for (const std::size_t index : order)
                 {
-                    if (attempts >= MAX_DROPS || !solver_.mayGoOn() || stretches[index].length() > LONGEST_DROPPED)
+                    if (attempts >= MAX_DROPS || !solver_.mayContinue() || stretches[index].length() > LONGEST_DROPPED)
                         return;
                     const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.body_);
                     if (rest.empty())
@@ -348,7 +349,7 @@ namespace parking
         /** Moves nodes to where accelerations and steering rates change. */
         void refine(MotionSolution &best)
         {
-            if (!solver_.mayGoOn())
+            if (!solver_.mayContinue())
                 return;
             auto found = rightOf(solver_.refine(best), best.cost, [] { return MotionOutcome(); });
             if (found && found->cost < best.cost)
