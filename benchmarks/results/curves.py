@@ -40,7 +40,8 @@ def step_points(points, end):
 
 
 def step_curves(curves, times, heights, x_title, y_title, height_label):
-    """curves: name -> points (seconds, height); times and heights: the ranges of the axes, that of the times logarithmic."""
+    """curves: name -> points (seconds, height); times and heights: the ranges of the axes, that of the times logarithmic. A
+    curve has the colour of its place among all, also where others lie outside of the field and are left out."""
     low, high = times
     bottom, top = heights
 
@@ -49,10 +50,11 @@ def step_curves(curves, times, heights, x_title, y_title, height_label):
         return LEFT + (WIDTH - LEFT - RIGHT) * min(share, 1.0)
 
     def down(height):
-        share = (min(max(height, bottom), top) - bottom) / (top - bottom)
+        share = (height - bottom) / (top - bottom)
         return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * share
     made = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img">',
-            f'<title>{escape(y_title)}, {escape(x_title)}</title>', f'<style>{STYLE}</style>']
+            f'<title>{escape(y_title)}, {escape(x_title)}</title>', f'<style>{STYLE}</style>',
+            f'<clipPath id="field"><path d="M{LEFT} {TOP - 2}H{WIDTH - RIGHT}V{HEIGHT - BOTTOM + 2}H{LEFT}Z"/></clipPath>']
     for exponent in range(math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9) + 1):
         x = across(10.0 ** exponent)
         made += [f'<path class="grid" d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}"/>',
@@ -65,13 +67,14 @@ def step_curves(curves, times, heights, x_title, y_title, height_label):
              f'<text x="{(LEFT + WIDTH - RIGHT) / 2:.0f}" y="{HEIGHT - 8}" text-anchor="middle">{escape(x_title)}</text>',
              f'<text transform="translate(14 {(TOP + HEIGHT - BOTTOM) / 2:.0f}) rotate(-90)" text-anchor="middle">'
              f'{escape(y_title)}</text>']
-    for index, (name, points) in enumerate(curves.items()):
+    seen = [(index, name, points) for index, (name, points) in enumerate(curves.items())
+            if any(bottom <= height <= top for _, height in points)]
+    for place, (index, name, points) in enumerate(seen):
         dash = DASHES[index // len(COLOURS) % len(DASHES)]
         look = f'stroke="{COLOURS[index % len(COLOURS)]}"' + (f' stroke-dasharray="{dash}"' if dash else '')
         line = ' '.join(f'{across(x):.1f},{down(y):.1f}' for x, y in step_points(points, high))
-        if line:
-            made.append(f'<polyline class="curve" {look} points="{line}"/>')
-        y = TOP + 10 + 19 * index
+        made.append(f'<polyline class="curve" clip-path="url(#field)" {look} points="{line}"/>')
+        y = TOP + 10 + 19 * place
         made += [f'<path class="curve" {look} d="M{WIDTH - RIGHT + 12} {y}h22"/>',
                  f'<text x="{WIDTH - RIGHT + 40}" y="{y + 4}">{escape(name)}</text>']
     return '\n'.join(made + ['</svg>']) + '\n'

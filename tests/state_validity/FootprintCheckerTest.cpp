@@ -4,6 +4,7 @@
 #include "parking_geometry/Error.h"
 #include "state_validity/fcl/FclContactTest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -178,6 +179,24 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
         }
     }
     EXPECT_GT(checked, 100);
+}
+
+TEST(FootprintChecker, TheSpeedFactorIsTheSpeedOfTheFastestCorner)
+{
+    constexpr double MARGIN = 0.1, STEP = 1e-6;
+    Vehicle body;
+    const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-20.0, -20.0}, {20.0, 20.0}}), body, MARGIN);
+    body.frontOverhang += MARGIN;
+    body.rearOverhang += MARGIN;
+    body.width += 2.0 * MARGIN;
+    for (const double curvature : {0.0, 0.05, -0.33, 2.0})
+    {
+        const auto before = body.footprint({}), after = body.footprint(advance({}, curvature, STEP));
+        double fastest = 0.0;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            fastest = std::max(fastest, (after[i] - before[i]).norm() / STEP);
+        EXPECT_NEAR(checker.speedFactor(curvature), fastest, 1e-4) << curvature;
+    }
 }
 
 TEST(FootprintChecker, KnowsExactClearancesInTheMiddleOfALongWorld)

@@ -1,7 +1,7 @@
 // What motions cost, against sums by hand and lengths measured in small steps.
 
 #include "ompl_improved_astar/search/CostModel.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/Search.h"
-#include "tests/ompl_improved_astar/AfterAsking.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The search with the car's motions: the laws that every result obeys, in named problems and in random worlds.
 
 #include "ompl_improved_astar/search/Search.h"
-#include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 

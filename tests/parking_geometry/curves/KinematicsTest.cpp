@@ -38,7 +38,9 @@ TEST(Kinematics, ArcBetweenFindsTheArc)
         const double length = random.between(-6.0, 6.0);
         if (std::abs(curvature * length) > 0.99 * PI || std::abs(length) < 1e-3)
             continue;
-        const Arc arc = arcBetween(from, advance(from, curvature, length));
+        Pose to = advance(from, curvature, length);
+        to.yaw = wrapAngle(to.yaw);
+        const Arc arc = arcBetween(from, to);
         ASSERT_NEAR(arc.length, length, 1e-9);
         ASSERT_NEAR(arc.curvature, curvature, 1e-9 / std::abs(length));
     }

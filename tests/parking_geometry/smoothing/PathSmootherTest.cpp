@@ -95,6 +95,28 @@ TEST(PathSmoother, PlannerPathsBecomeDrivableAndMostlyContinuous)
     EXPECT_GT(stops, 0u);
 }
 
+TEST(PathSmoother, AsksForTheClearanceOfTheCarAsItIsHeadedAlsoInReverse)
+{
+    for (const double direction : {-1.0, 1.0})
+    {
+        const Path path{{}, {{0.0, 4.0 * direction}, {0.2, 3.0 * direction}, {-0.2, 3.0 * direction}}};
+        FootprintQueries queries;
+        queries.isPathFree = [](const Path &)
+        {
+            return false;  // so that it tries to keep the clearance of the arcs
+        };
+        int asked = 0;
+        queries.clearance = [&asked](const Pose &pose)
+        {
+            ++asked;
+            EXPECT_GT(std::cos(pose.yaw), 0.5);
+            return 10.0;
+        };
+        PathSmoother(Vehicle(), SmoothingOptions()).smooth(path, queries);
+        EXPECT_GT(asked, 0);
+    }
+}
+
 TEST(PathSmoother, AmongObstaclesTheResultIsFreeAndMostlyContinuous)
 {
     RandomParking random(43);

@@ -1,7 +1,7 @@
 // The shortest routes of a disc: compared with Dijkstra's algorithm in any order of questions, and as lower bounds.
 
 #include "ompl_improved_astar/search/heuristics/RouteHeuristic.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -187,9 +187,6 @@ TEST(RouteHeuristic, placesAreHeadedAlongTheRoute)
         RouteHeuristic routes = routesTo(target, world, 0.5, 1.0, {0.0, 0.0});
         EXPECT_NEAR(routes.placeOnRoute(from.x(), from.y(), 5.0, 3.0)->yaw, yaw, 1e-9);
         EXPECT_FALSE(routes.placeOnRoute(from.x(), from.y(), 5.0, 0.0));
-        EXPECT_LT(routes.cells(), 100u) << "only the area queried is settled, of 58,000 cells";
-        routes.distance(2.0 * target.x(), 2.0 * target.y());
-        EXPECT_LT(routes.cells(), 500u) << "the search aims at the place queried";
     }
 }
 
@@ -249,17 +246,19 @@ TEST(RouteHeuristic, lowerBoundHoldsInASlalomBetweenCells)
     EXPECT_LE(routes.lowerBound({1.5, 1.3, 0.0}), length);
 }
 
-TEST(RouteHeuristic, passesNoWallThinnerThanACell)
+TEST(RouteHeuristic, passesALaneAHairWiderThanTheDiscButNoWallThinnerThanACell)
 {
     Random random(3);
     for (int i = 0; i < 200; ++i)
-        for (const double door : {0.0, 1.5})
-        {
-            DiscCarWorld world({{-9.0, -6.0}, {9.0, 6.0}}, {{{0.0, -6.0}, {1e-3, -door}}, {{0.0, door}, {1e-3, 6.0}}});
-            const Vector2d toward(random.between(-5.0, 5.0), 0.0);
-            RouteHeuristic routes = routesTo({4.0, 0.0}, world, random.between(0.5, 0.92), 0.95, toward);
-            ASSERT_EQ(routes.provesUnreachable({-4.0, 0.0, 0.0}), door == 0.0);
-        }
+        for (const double thickness : {1e-3, 4.0})
+            for (const double door : {0.0, 0.96, 1.5})
+            {
+                DiscCarWorld world({{-9.0, -6.0}, {9.0, 6.0}},
+                                   {{{0.0, -6.0}, {thickness, -door}}, {{0.0, door}, {thickness, 6.0}}});
+                const Vector2d toward(random.between(-5.0, 5.0), random.between(-0.5, 0.5));
+                RouteHeuristic routes = routesTo({6.0, 0.0}, world, random.between(0.5, 0.92), 0.95, toward);
+                ASSERT_EQ(routes.provesUnreachable({-4.0, 0.0, 0.0}), door == 0.0);
+            }
 }
 
 TEST(RouteHeuristic, claimsNothingWhenStoppedAndResumes)
@@ -303,17 +302,4 @@ TEST(RouteHeuristic, claimsNothingBeyondItsLimits)
     routes = routesTo({9.5, 0.5}, corridor, 1.0, 0.9, {0.0, 0.0}, never, 100);
     EXPECT_FALSE(routes.provesUnreachable(behind)) << "at the limit of cells";
     EXPECT_EQ(routes.cells(), 100u);
-}
-
-TEST(RouteHeuristic, cellsGrowWithTheCarAndTheDistance)
-{
-    const auto side = [](double turningRadius, double bodyRadius, double distance)
-    {
-        return routeResolution(turningRadius, bodyRadius, {{0.0, 0.0, 0.0}}, {{distance, 0.0, 0.0}});
-    };
-    EXPECT_NEAR(side(3.0, 0.9, 10.0), 0.5, 1e-9);
-    EXPECT_GT(side(0.1, 0.9, 10.0), 0.3);
-    EXPECT_NEAR(side(3.0, 0.9, 120.0), 1.0, 1e-9);
-    EXPECT_NEAR(side(3.0, 0.9, 1000.0), 1.25, 1e-9);
-    EXPECT_GT(2000.0 * side(0.1, 0.0, 5000.0), 5000.0);
 }

@@ -1,7 +1,7 @@
 // The motions of the car: where they lead, that they are free, and which poses share a cell.
 
 #include "ompl_improved_astar/search/MotionModel.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -96,81 +96,4 @@ TEST(CarModel, motionsAreFreeLeadWhereTheySayAndKeepTheClearanceTheyAreKnownToKe
     }
     EXPECT_GT(count, 5000);
     EXPECT_GT(clear, 1000);
-}
-
-TEST(CarModel, movesTowardsAPoseUntilSomethingIsInTheWay)
-{
-    int arrived = 0, ended = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-        for (const double clearance : {0.0, 0.2})
-            for (const Side side : {Side::Start, Side::Goal})
-            {
-                DiscCarWorld world = randomField(seed, 4);
-                Random random(seed);
-                CarIn car(world, seed % 4 == 0, clearance);
-                for (int i = 0; i < 10; ++i)
-                {
-                    const Pose from = world.freePose(random), to = world.freePose(random);
-                    std::vector<Successor> motions{{}};
-                    car.model->moveTowards(side, from, to, motions);
-                    Pose pose = from;
-                    double length = 0.0;
-                    for (const Successor &each : motions)
-                    {
-                        // Where nothing is known beforehand, gaps between the samples may be smaller.
-                        ASSERT_GE(gapAlong(world, pose, each.motion), std::max(1e-9, clearance - 0.15));
-                        pose = advance(pose, each.motion.drive());
-                        ASSERT_NEAR(positionDistance(pose, each.pose), 0.0, 1e-9);
-                        length += std::abs(each.motion.length);
-                        ASSERT_TRUE(!car.car.forwardOnly || (each.motion.length > 0.0) == (side == Side::Start));
-                    }
-                    const double whole =
-                        side == Side::Start ? car.model->distance(from, to) : car.model->distance(to, from);
-                    ASSERT_LE(length, whole + 1e-6);
-                    if (length < whole - 1e-3)
-                        ++ended;
-                    else
-                    {
-                        ++arrived;
-                        ASSERT_NEAR(positionDistance(pose, to), 0.0, 1e-5);
-                        ASSERT_NEAR(wrapAngle(pose.yaw - to.yaw), 0.0, 1e-5);
-                    }
-                }
-            }
-    EXPECT_GT(arrived, 100);
-    EXPECT_GT(ended, 300);
-}
-
-TEST(CarModel, cellsHoldPosesThatAreNearEachOtherAndNearerOnFinerLevels)
-{
-    DiscCarWorld world({{-12.0, -12.0}, {12.0, 12.0}});
-    CarIn car(world);
-    Random random(1);
-    double coarser = HUGE_VAL, coarsest = 0.0;
-    for (std::size_t level = 0; level < car.model->traits().levels; ++level)
-    {
-        double widest = 0.0, turned = 0.0;
-        for (int i = 0; i < 40000; ++i)
-        {
-            const double reach = random.magnitude(1e-4, 2.0);
-            const Pose a = random.poseIn(-10.0, 10.0),
-                       b{a.x + random.between(-1.0, 1.0) * reach, a.y + random.between(-1.0, 1.0) * reach,
-                         a.yaw + random.between(-1.0, 1.0) * reach};
-            const std::uint64_t cell = car.model->cell(a, level);
-            ASSERT_EQ(cell >> 61, 0u);
-            ASSERT_EQ(car.model->cell({a.x, a.y, a.yaw + 2.0 * PI}, level), cell);
-            ASSERT_EQ(car.model->cell(a, level), cell);
-            if (car.model->cell(b, level) != cell)
-                continue;
-            widest = std::max(widest, positionDistance(a, b));
-            turned = std::max(turned, std::abs(wrapAngle(a.yaw - b.yaw)));
-        }
-        EXPECT_TRUE(0.0 < widest && widest < coarser);
-        EXPECT_LT(turned, 1.0);
-        coarser = widest;
-        coarsest = std::max(coarsest, widest);
-    }
-    EXPECT_LT(coarsest, car.car.turningRadius);
-    EXPECT_LT(coarser, 0.05 * coarsest);
-    EXPECT_EQ(car.model->cell({1.0, 1.0, PI}, 3), car.model->cell({1.0, 1.0, -PI}, 3));
 }

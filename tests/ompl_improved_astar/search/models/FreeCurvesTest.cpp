@@ -1,7 +1,7 @@
 // The cheapest free curves between two poses, against every word driven in small steps.
 
 #include "ompl_improved_astar/search/models/FreeCurves.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 

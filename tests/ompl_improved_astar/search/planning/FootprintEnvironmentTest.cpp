@@ -3,7 +3,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -172,6 +172,17 @@ TEST(FootprintEnvironment, aMotionIsFreeWhereItsPosesAre)
     }
     EXPECT_GT(free, 200);
     EXPECT_GT(blocked, 150);
+}
+
+TEST(FootprintEnvironment, aMotionAcrossAPostIsNotFreeAlthoughItsEndsAndItsMiddleAre)
+{
+    const Vehicle vehicle;
+    const Pose from{0.0, -5.0, 0.0}, to{0.0, 5.0, 0.0}, post{1.0, 4.9 - 0.5 * vehicle.width, 0.0};
+    const Box bounds{{-20.0, -20.0}, {20.0, 20.0}};
+    const FootprintChecker checker(ObstacleSet::fromPolygons({rectangle(0.02, 0.02, post)}, bounds), vehicle);
+    FootprintEnvironment environment(checker, bounds, TOLERANCE);
+    EXPECT_TRUE(environment.isFree(from) && environment.isFree({}) && environment.isFree(to));
+    EXPECT_FALSE(environment.isMotionFree(from, to));
 }
 
 TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)

@@ -181,22 +181,3 @@ TEST(Parameters, UnknownAndRemovedNamesAreAnsweredWithWhatToUseInstead)
         EXPECT_TRUE(isRefused([&] { parameterNamed(name); }, {std::string(name) + " was removed: ", instead}));
     EXPECT_TRUE(isRefused([] { parameterSet("experiment_7", {}); }, {"experiment_6"}));
 }
-
-// PlannerParametersTest has the values of each set.
-TEST(Parameters, SetsKeepWhatBelongsToTheProblemAndWeightsAreThoseOfTheHeuristic)
-{
-    P current;
-    current.turningRadius = 5.0;
-    current.xyResolution = 0.2;
-    current.headingBins = 36;
-    current.anytime = true;
-    for (const std::string &name : parameterSetNames())
-    {
-        const P set = parameterSet(name, current);
-        EXPECT_EQ(set.parameterSet, name);
-        EXPECT_TRUE(set.turningRadius == 5.0 && set.xyResolution == 0.2 && set.headingBins == 36 && !set.anytime);
-        EXPECT_NO_THROW(checkParameters(set));
-        EXPECT_EQ(set.weights().at(set.nearGoalDistance + 0.5), set.heuristicWeightFar + set.tieBreak);
-        EXPECT_EQ(set.weights().at(set.nearGoalDistance), set.heuristicWeightNear + set.tieBreak);
-    }
-}

@@ -2,7 +2,7 @@
 
 #include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/planning/PathImprover.h"
-#include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
-#include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -151,34 +151,6 @@ TEST(Plan, solvesWhatAFloodSolvesAndSaysInfeasibleOnlyWhereThatDoes)
     EXPECT_GT(enclosed, 0u);
 }
 
-TEST(Plan, reachesTheCheapestOfSeveralGoals)
-{
-    for (std::uint64_t seed = 0; seed < 20; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        CarProblem problem = randomProblem(seed, 4);
-        Random random(seed);
-        PlanRequest request = requestFor(problem);
-        request.goals = {NOWHERE, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-        request.maxExpansions = 2000;
-        double cheapest = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 1; i < request.goals.size(); ++i)
-        {
-            request.goals[i] = problem.world.freePose(random);
-            PlanRequest single = request;
-            single.goals = {request.goals[i]};
-            cheapest = std::min(cheapest, plan(problem.world, single).cost);
-        }
-        const PlanResult result = plan(problem.world, request);
-        if (result.outcome != PlanOutcome::Solved)
-            continue;
-        ASSERT_TRUE(isSamePose(result.path.end(), request.goals[result.goal], 1e-6));
-        problem.goals = {request.goals[result.goal]};
-        ASSERT_EQ(problem.faultOf(result.path), "");
-        EXPECT_LE(result.cost, 1.2 * cheapest);
-    }
-}
-
 TEST(Plan, refusesWhatIsNoRequest)
 {
     const std::vector<std::function<void(PlanRequest &)>> mistakes{
@@ -197,29 +169,5 @@ TEST(Plan, refusesWhatIsNoRequest)
         PlanRequest request = requestFor(problem);
         mistake(request);
         EXPECT_THROW(plan(problem.world, request), Error);
-    }
-}
-
-TEST(Plan, equalRequestsGiveEqualPathsInAnyThread)
-{
-    for (std::uint64_t seed = 0; seed < 8; ++seed)
-    {
-        const CarProblem problem = randomProblem(seed);
-        PlanRequest request = requestFor(problem);
-        request.maxExpansions = 1000;
-        std::vector<PlanResult> results(4);
-        std::vector<CarProblem> copies(results.size(), problem);
-        std::vector<std::thread> threads;
-        for (std::size_t i = 0; i < results.size(); ++i)
-            threads.emplace_back([&, i] { results[i] = plan(copies[i].world, request); });
-        for (std::thread &thread : threads)
-            thread.join();
-        for (const PlanResult &result : results)
-        {
-            ASSERT_EQ(result.outcome, results[0].outcome);
-            ASSERT_EQ(result.cost, results[0].cost);
-            ASSERT_TRUE(isSamePath(result.path, results[0].path));
-            ASSERT_EQ(result.statistics.generated, results[0].statistics.generated);
-        }
     }
 }
