@@ -178,7 +178,7 @@ namespace parking
                                                    const std::function<bool()> &interrupted) const
     {
         if (!plan.hasPath() || plan.path.pieces.empty())
-            throw Error("a trajectory requires a path; there is none");
+            throw Error("there is no path, which a trajectory requires");
         QuickestTrajectoryOptions own = options;
         own.alternatives = options.alternatives && plan.outcome == search::PlanOutcome::Solved && !plan.isDisc;
         return quickestTrajectory(footprint_, scenario_.bounds, plan.path, own, interrupted);
