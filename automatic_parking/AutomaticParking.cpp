@@ -21,15 +21,15 @@ namespace parking
     {
         std::string rounded(double value, double unit)
         {
-            // Divided, not multiplied: 5.6, not 5.6000000000000005.
+            // A division keeps short decimals: 5.6 instead of 5.6000000000000005.
             return formatNumber(unit < 1.0 ? std::round(value / unit) / std::round(1.0 / unit)
                                            : std::round(value / unit) * unit);
         }
 
-        /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */
+        /** Share of the assumed braking that a planned drive uses; the rest is left for corrections. */
         constexpr double BRAKE_USED = 0.95;
-        /** Metres that the guard keeps even where the plan keeps nothing: poses are known no better. */
-        constexpr double LEAST_GAP = 0.005;
+        /** Minimum distance in metres that the guard keeps: poses are not known more accurately. */
+        constexpr double MIN_GAP = 0.005;
 
         double yawBetween(const Pose &a, const Pose &b)
         {
@@ -45,7 +45,7 @@ namespace parking
         trajectory.trajectory.validate();
         const Require require("parking");
         require.notNegative("keptClearance", keptClearance);
-        require.notNegative("leastClearance", leastClearance);
+        require.notNegative("minClearance", minClearance);
         require.notNegative("motionClearance", motionClearance);
         require.that(clearanceShare > 0.0 && clearanceShare < 1.0, "clearanceShare", clearanceShare, "between 0 and 1");
         require.positive("replanCrossTrack", replanCrossTrack);
@@ -66,7 +66,7 @@ namespace parking
         trajectory.trajectory.sharpest = false;
     }
 
-    /** One call of park(): the world as it is now, and what has been driven so far. */
+    /** One call of park(): the current world and the drives so far. */
     class AutomaticParking::Session
     {
     public:
@@ -80,7 +80,7 @@ namespace parking
 
         ParkingResult park(const std::optional<Pose> &start)
         {
-            // The car's own idea of where it stands may differ from the truth; both go on from drive to drive.
+            // The estimated pose may differ from the true one; both continue from drive to drive.
             Pose truth = start.value_or(scenario_.start);
             std::string reason = "first plan";
             for (std::size_t count = 0;; ++count)
@@ -114,7 +114,7 @@ namespace parking
                 truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
                 scenario_.start = drive.log.back().control.estimate;
                 steering_ = drive.trajectory.back().steering;
-                if (judge(drive, reason))
+                if (isFinished(drive, reason))
                     break;
                 if (count >= parameters_.maxReplans)
                 {
@@ -132,14 +132,14 @@ namespace parking
             leg.reason = "given path";
             leg.plan.found = true;
             leg.plan.path = path;
-            leg.plan.message = "a path from elsewhere";
+            leg.plan.message = "a given path";
             parameters_.replanCrossTrack = parameters_.replanHeadingError = std::numeric_limits<double>::infinity();
             Pose truth = scenario_.start;
             if (!path.pieces.empty())
             {
                 truth = path.start;
                 goal_ = leg.plan.goal = path.end();
-                leg.plan.clearance = leastClearance(world_.footprint(), path);
+                leg.plan.clearance = minClearance(world_.footprint(), path);
             }
             const bool driven = drive(leg, truth, 0);
             result_.legs.push_back(std::move(leg));
@@ -148,7 +148,7 @@ namespace parking
                 const DriveResult &drive = result_.legs.back().drive;
                 truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
                 std::string reason;
-                if (!judge(drive, reason))
+                if (!isFinished(drive, reason))
                     finish(drive.arrived ? ParkingStatus::MissedGoal : ParkingStatus::Stopped, reason);
             }
             return close(truth);
@@ -166,7 +166,7 @@ namespace parking
             result_.message = message;
         }
 
-        /** The car stands at the goal already: there is nothing to drive. */
+        /** The car already stands at the goal: there is nothing to drive. */
         void stay(const Pose &truth)
         {
             TrajectoryPoint point;
@@ -176,11 +176,11 @@ namespace parking
             point.yaw = truth.yaw;
             point.steering = steering_;
             if (result_.trajectory.empty())
-                result_.trajectory = {point, point};  // begin and end, so that it can be drawn as any other
+                result_.trajectory = {point, point};  // two equal points, so that it can be drawn like others
             finish(ParkingStatus::Parked, "parked");
         }
 
-        /** Looks for a motion that is quicker than the path of \e leg. */
+        /** Optimises a trajectory that is faster than the path of \e leg. */
         void optimize(ParkingLeg &leg)
         {
             if (!parameters_.optimizeTrajectory || leg.plan.clearance < parameters_.motionClearance)
@@ -192,7 +192,7 @@ namespace parking
             options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,
-                         std::min(parameters_.leastClearance, parameters_.clearanceShare * leg.plan.clearance));
+                         std::min(parameters_.minClearance, parameters_.clearanceShare * leg.plan.clearance));
             options.trajectory.preferredClearance =
                 std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
             if (leg.plan.path.pieces.size() != leg.plan.arcs.pieces.size())
@@ -202,63 +202,64 @@ namespace parking
                 QuickestTrajectory found =
                     quickestTrajectory(world_.footprint(), scenario_.bounds, leg.plan.path, options);
                 if (found.trajectory.fallback)
-                    note("the path is driven with standstills: " + found.trajectory.reason);
+                    note("the car stops to steer: " + found.trajectory.reason);
                 else
                     leg.trajectory = std::move(found);
             }
             catch (const Error &error)
             {
-                note(std::string("the path is driven with standstills: ") + error.what());
+                note(std::string("the car stops to steer: ") + error.what());
             }
             leg.optimizationTime = watch.seconds();
             result_.planningTime += leg.optimizationTime;
         }
 
-        /** Of the car's acceleration: what is used by plans. */
+        /** Share of the car's acceleration that plans use. */
         double accelerationShare() const
         {
             return BRAKE_USED * (1.0 - parameters_.drive.tracking.brakeReserve);
         }
 
-        /** The body keeps this much of what \e leg keeps while it stops, and from what appears. */
+        /** Required clearance while stopping and from new obstacles, derived from the clearance of \e leg. */
         double gapOf(const ParkingLeg &leg) const
         {
-            return std::min(parameters_.stopClearance, std::max(LEAST_GAP, 0.5 * leg.plan.clearance));
+            return std::min(parameters_.stopClearance, std::max(MIN_GAP, 0.5 * leg.plan.clearance));
         }
 
-        /** Takes back a plan on which the guard would stop the car, as it leads nearer to obstacles than that. */
+        /** Rejects a plan on which the guard would stop the car, because it leads too close to obstacles. */
         void refuseTooNarrow(ParkingPlan &plan) const
         {
-            if (!plan.found || plan.path.pieces.empty() || plan.clearance >= LEAST_GAP ||
-                world_.footprint().clearance(plan.path.start) < LEAST_GAP)
+            if (!plan.found || plan.path.pieces.empty() || plan.clearance >= MIN_GAP ||
+                world_.footprint().clearance(plan.path.start) < MIN_GAP)
                 return;
             plan.found = false;
             plan.message =
-                "the way leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
+                "the path leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
         }
 
-        /** May the car give a command that needs \e stoppingWay to come to rest again, from where it is now?
+        /** Whether a command is allowed whose \e stoppingPath brings the car to rest.
 
-            As long as every command was allowed, the car can stop without touching anything: with the brake in reserve,
-            after the delay that commands were seen to have, with wheels that follow as they were seen to, or do not.
-            For obstacles that were not there before it stops at once. Where it is nearer than the gap already, which
-            errors of measurement and control may cause, the gap does not count; where it is believed to touch
-            something, nothing is forbidden: it must be able to leave. */
-        bool canStop(const Path &stoppingWay) const
+            As long as every command is allowed, the car can stop without collision. This holds with the reserve of
+            braking, the learnt delay of commands and the learnt response of the wheels, even if the wheels stick. If
+            new obstacles violate it, the car stops immediately.
+
+            The gap does not apply while the car is already closer than the gap, because of errors of measurement and
+            control. If the estimated pose collides, every command is allowed, so that the car can leave. */
+        bool canStop(const Path &stoppingPath) const
         {
-            if (enlarged_ && enlarged_->isFree(stoppingWay.start))
-                return isPathFree(*enlarged_, stoppingWay);
-            return !world_.footprint().isFree(stoppingWay.start) || isPathFree(world_.footprint(), stoppingWay);
+            if (enlarged_ && enlarged_->isFree(stoppingPath.start))
+                return isPathFree(*enlarged_, stoppingPath);
+            return !world_.footprint().isFree(stoppingPath.start) || isPathFree(world_.footprint(), stoppingPath);
         }
 
-        /** Drives the plan of \e leg; false when it cannot be driven. */
+        /** Drives the plan of \e leg. \return false if it cannot be driven */
         bool drive(ParkingLeg &leg, const Pose &truth, std::size_t count)
         {
             ClosedLoopParameters parameters = parameters_.drive;
-            parameters.disturbances.seed += count;  // other noise on every drive
+            parameters.disturbances.seed += count;  // different noise on every drive
             for (std::vector<TimeSpan> Disturbances::*spans : {&Disturbances::blind, &Disturbances::stuck})
                 for (TimeSpan &span : parameters.disturbances.*spans)
-                    span = {span.begin - time_, span.end - time_};  // time runs on
+                    span = {span.begin - time_, span.end - time_};  // continues the clock
             parameters.tracking.accelerationShare =
                 std::min(parameters.tracking.accelerationShare, accelerationShare());
             ClosedLoop loop(scenario_.vehicle, parameters);
@@ -270,7 +271,7 @@ namespace parking
                 });
             cause_.clear();
             enlarged_ = world_.enlarged(gapOf(leg));
-            loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingWay); });
+            loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingPath); });
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
             try
             {
@@ -283,14 +284,14 @@ namespace parking
                 note(result_.message);
                 return false;
             }
-            // The car is the same on the next drive.
+            // The learnt response remains valid for the next drive.
             parameters_.drive.tracking.response = leg.drive.response;
             for (const DriveRecord &record : leg.drive.log)
                 if (cause_.empty())
                     cause_ = record.control.interruption;
             for (TrajectoryPoint point : leg.drive.trajectory)
             {
-                // A drive begins where the one before has ended.
+                // A drive starts where the previous one has ended.
                 if (!result_.trajectory.empty() && point.t == 0.0)
                     result_.trajectory.pop_back();
                 point.t += time_;
@@ -310,7 +311,7 @@ namespace parking
                    yawBetween(pose, goal) <= parameters_.goalYawTolerance;
         }
 
-        /** Looks at each period of a drive; false asks for a safe stop. */
+        /** Monitors each period of a drive. \return false to request a safe stop */
         bool watch(const ParkingLeg &leg, const DriveRecord &record)
         {
             if (!cause_.empty())
@@ -329,14 +330,14 @@ namespace parking
                 }
                 catch (const std::exception &error)
                 {
-                    // A moving car is stopped, whatever is wrong with its map or with who should bring it.
+                    // A moving car must stop on any error of the map or of the function that returns it.
                     cause_ = std::string("the changed map cannot be used: ") + error.what();
                     hopeless_ = true;
                 }
             return cause_.empty();
         }
 
-        /** The world is another one from now on. */
+        /** Replaces the world. */
         void takeOver(Scenario changed, const ParkingLeg &leg, double s)
         {
             if (changed.worldOffset != scenario_.worldOffset)
@@ -345,7 +346,7 @@ namespace parking
                 throw Error("scenario " + changed.name + ": it has no goal");
             changed.start = scenario_.start;
             changed.vehicle = scenario_.vehicle;
-            // Goals from perception jitter; the one under way counts as long as a car that stands there would do.
+            // Goals from perception jitter. The current goal stays valid if a car there would be within the tolerances.
             const bool moved = std::none_of(changed.goals.begin(), changed.goals.end(),
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
             const ParkingWorld before = world_;
@@ -353,8 +354,8 @@ namespace parking
             scenario_ = std::move(changed);
             enlarged_ = world_.enlarged(gapOf(leg));
             const double driven = std::max(0.0, s - parameters_.lookBack), gap = gapOf(leg);
-            // What is passed nearer than the guard allows would be crept past, with nothing left for the
-            // controller's errors; where it was like that before, it was planned like that.
+            // Obstacles closer than the guard's gap would be passed at creeping speed without a reserve for control
+            // errors. If they were as close before the change, the plan has accepted them.
             if (moved)
                 cause_ = "the goal has changed";
             else if (!isFreeFrom(leg, driven, world_, 0.0) ||
@@ -362,7 +363,7 @@ namespace parking
                 cause_ = "the map has changed";
         }
 
-        /** Is what lies behind the first \e driven metres of the drive free in \e world, with \e gap to spare? */
+        /** Whether the drive after its first \e driven metres is free in \e world with a clearance of \e gap. */
         bool isFreeFrom(const ParkingLeg &leg, double driven, const ParkingWorld &world, double gap) const
         {
             const std::shared_ptr<const FootprintChecker> checker = world.enlarged(gap);
@@ -374,8 +375,8 @@ namespace parking
             return collisionsOf(rest, *checker, 1).empty();
         }
 
-        /** Is it over? Otherwise \e reason says why to replan. */
-        bool judge(const DriveResult &drive, std::string &reason)
+        /** Whether parking is finished. Otherwise \e reason is set to that of the replan. */
+        bool isFinished(const DriveResult &drive, std::string &reason)
         {
             if (drive.evaluation.collisions > 0)
             {
@@ -424,9 +425,9 @@ namespace parking
         Pose goal_;
         double time_{0.0};
         double steering_{0.0};
-        bool hopeless_{false};                              // is there no use in planning again?
-        std::shared_ptr<const FootprintChecker> enlarged_;  // the body and what it keeps while it stops
-        std::string cause_;  // why the drive under way was stopped by watch(); empty otherwise
+        bool hopeless_{false};                              // whether planning again is useless
+        std::shared_ptr<const FootprintChecker> enlarged_;  // the body with its clearance while stopping
+        std::string cause_;                                 // why watch() stopped the current drive; empty otherwise
         ParkingResult result_;
     };
 
@@ -481,8 +482,8 @@ namespace parking
             for (std::size_t Evaluation::*field :
                  {&Evaluation::collisions, &Evaluation::checkedPoses, &Evaluation::solves, &Evaluation::solverFailures})
                 all.*field += next.*field;
-            all.standstills += next.standstills + 1;  // the car stood between the drives, too
-            // Ranks of several sets cannot be had from theirs; the larger one errs on the safe side.
+            all.standstills += next.standstills + 1;  // the car also stood between the drives
+            // The percentile of several sets does not follow from theirs; the largest one is an upper bound.
             all.solveTime.median = std::max(all.solveTime.median, next.solveTime.median);
             all.solveTime.p99 = std::max(all.solveTime.p99, next.solveTime.p99);
             all.solveTime.max = std::max(all.solveTime.max, next.solveTime.max);

@@ -14,38 +14,41 @@
 
 namespace parking
 {
-    /** \brief Everything that parking may be tuned with. */
+    /** \brief Parameters of the whole parking pipeline. */
     struct ParkingParameters
     {
-        PlanningParameters planning;  ///< of every plan, the first one and replans
-        /** Of the controller and of the simulated car. The time of disturbances runs on from drive to drive. */
+        PlanningParameters planning;  ///< of every plan, including replans
+        /** Parameters of the controller and of the simulated car. Disturbances use one clock for all drives. */
         ClosedLoopParameters drive;
 
-        /** Drive the fastest trajectory near the path, the wheels turning while the car rolls; otherwise the path
-           itself with standstills wherever its curvature jumps. */
+        /** Whether to drive the fastest trajectory near the path, steering while driving. Otherwise the car drives the
+            path itself, with standstills where its curvature jumps. */
         bool optimizeTrajectory{true};
-        /** How that is found. The wheels begin where they are; margin and preferred clearance are at least
-            what leastClearance and keptClearance make of the plan's clearance. */
+        /** Options of the optimisation. The initial steering is that of the car. Margin and preferred clearance are at
+            least those derived from minClearance and keptClearance for the plan. */
         QuickestTrajectoryOptions trajectory;
-        double keptClearance{0.2};    ///< metres that a trajectory prefers to keep where the plan does
-        double leastClearance{0.15};  ///< metres that it does keep, where the plan does,
-        double clearanceShare{0.9};   ///< and where it does not, this share of what that keeps
-        /** Metres; a plan that keeps less is driven with standstills: there the errors of a moving car would tell. */
+        double keptClearance{0.2};  ///< preferred clearance of a trajectory in metres, if the plan keeps it
+        /** Required clearance of a trajectory in metres, if the plan keeps it; otherwise see clearanceShare. */
+        double minClearance{0.15};
+        /** Share of the plan's clearance that a trajectory must keep, if that is below minClearance. */
+        double clearanceShare{0.9};
+        /** Metres; a plan with less clearance is driven with standstills, because errors of a moving car would
+            matter. */
         double motionClearance{0.03};
 
-        std::size_t maxReplans{3};        ///< plans after the first one
+        std::size_t maxReplans{3};        ///< number of plans after the first one
         double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and replans
-        double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
+        double replanHeadingError{0.35};  ///< radians off the heading of the path at which the car stops and replans
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off replans
-        double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
-        /** Metres that the body keeps on the way that it needs to stop (half of what the plan keeps, where that is
-           less, but 5 mm); a car that could not slows down before. What appears nearer to the way ahead is a reason to
-           replan. drive.tracking.brakeReserve is what it counts on the brake for. */
+        double goalYawTolerance{0.0349};  ///< radians (2 degrees) from the goal; a car that stands farther off replans
+        /** Metres of clearance on the path to a stop, at most half of the plan's clearance but at least 5 mm. A car
+            that could not keep it slows down early. An obstacle that appears nearer to the path ahead causes a replan.
+            drive.tracking.brakeReserve is the assumed loss of braking. */
         double stopClearance{0.03};
-        double lookBack{0.1};  ///< metres of path behind the car that a changed map must leave free, too
+        double lookBack{0.1};  ///< metres of path behind the car that must stay free when the map changes
 
-        /** \brief Trajectories that leave a controller something to correct with, and the wheels at the end as they
-            are. */
+        /** \brief Defaults: trajectories that leave the controller a reserve for corrections, with a free final
+            steering angle. */
         ParkingParameters();
 
         /** \brief Throws parking::Error naming the first field out of its range. */
@@ -57,49 +60,53 @@ namespace parking
     {
         std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
         double begin{0.0};   ///< seconds since the first command
-        ParkingPlan plan;    ///< its path has no pieces where the car stands at the goal already
-        /** What is driven; absent when the path itself is. */
+        ParkingPlan plan;    ///< its path has no pieces if the car already stands at the goal
+        /** The driven trajectory; absent if the path itself is driven. */
         std::optional<QuickestTrajectory> trajectory;
         double optimizationTime{0.0};  ///< seconds
-        DriveResult drive;  ///< empty when there was nothing to drive: no plan, or the car stands at the goal
+        DriveResult drive;             ///< empty without a plan, or if the car already stands at the goal
     };
 
-    /** \brief What came of parking; every stage's output is kept. */
+    /** \brief Result of parking, with the output of every stage. */
     struct ParkingResult
     {
-        ParkingStatus status{ParkingStatus::NoPath};  ///< how it ended
-        std::string message;                          ///< one line
-        std::vector<ParkingLeg> legs;                 ///< a plan each; more than one after replanning
-        /** Of all drives, time running on; the car plans in no time. Of a car that stays: its pose, twice. */
+        ParkingStatus status{ParkingStatus::NoPath};  ///< final status
+        std::string message;                          ///< one line: the result, or the reason of the failure
+        std::vector<ParkingLeg> legs;                 ///< one per plan; more than one after replanning
+        /** All drives on one clock, planning time excluded; two equal points if the car never moves. */
         Trajectory trajectory;
-        Evaluation evaluation;     ///< of all drives together, final errors against the goal
-        double planningTime{0.0};  ///< seconds, all plans and trajectories
+        Evaluation evaluation;     ///< of all drives in total, with final errors relative to the goal
+        double planningTime{0.0};  ///< seconds, of all plans and trajectories
 
-        /** \brief Does the car stand at its goal? */
+        /** \brief Whether the car stands at its goal. */
         bool parked() const
         {
             return status == ParkingStatus::Parked;
         }
 
-        /** \brief What happened on the way, with times; plans included. */
+        /** \brief Events of all drives and plans, with their times. */
         std::vector<std::string> events;
     };
 
-    /** \brief The whole pipeline of the paper behind one call: map, car, start and slot in; plan, smooth, drive; result
-        out.
+    /** \brief The whole pipeline of the paper in one call: it plans, smooths and drives in a given map, for a given
+        car, start and slot.
 
-        Parking again and again on the way: when the map changes so that the rest of the path is blocked, when the car
-        strays from the path, when its wheels do not follow, when its pose was lost for a while, when it could not stop
-       in time if it went on, and when it stands too far from the goal, it stops, plans from where it believes to stand,
-       and drives on. A change of the map that leaves the rest of the path free does not disturb the drive. */
+        The car stops, plans again from its estimated pose and drives on in these cases:
+        - A change of the map blocks the rest of the path.
+        - The car strays from the path, or its wheels do not follow.
+        - Its pose was lost for a while.
+        - It could not stop in time if it drove on.
+        - It stands too far from the goal.
+
+        A change of the map that leaves the rest of the path free does not affect the drive. */
     class AutomaticParking
     {
     public:
-        /** \brief Asked each period for a world that has changed: seconds since the first command, and the pose that
-            the car believes in. Nothing: all is as before.
+        /** \brief Returns a changed world, or nothing if it is unchanged. It is called each period with the seconds
+            since the first command and the estimated pose of the car.
 
-            Obstacles, goals and slot of the new scenario count; its start and its car do not. Its coordinates must be
-            those of the first one (same worldOffset). An invalid scenario leads to a safe stop. */
+            Obstacles, goals and slot of the new scenario apply; its start and its car are ignored. Its coordinates must
+            be those of the first one (same worldOffset). An invalid scenario leads to a safe stop. */
         using MapUpdate = std::function<std::optional<Scenario>(double time, const Pose &car)>;
 
         /** \brief Throws parking::Error for parameters out of their range. */
@@ -111,18 +118,18 @@ namespace parking
             return parameters_;
         }
 
-        /** \brief Whom to ask for a changed world; empty: the world stays as it is. */
+        /** \brief Sets the function that reports changes of the world. If it is empty, the world is constant. */
         void setMapUpdate(MapUpdate update);
 
         /** \brief Parks the car of \e scenario.
 
-            Throws parking::Error for an invalid scenario (no goal, an invalid car); everything else is in
-            the result.
-            \param start where the car really stands, when that is not where the scenario believes it to be */
+            Throws parking::Error for an invalid scenario (no goal, an invalid car). All other failures are in the
+            result.
+            \param start actual pose of the car, if it differs from that of the scenario */
         ParkingResult park(const Scenario &scenario, const std::optional<Pose> &start = std::nullopt) const;
 
-        /** \brief Drives a path from elsewhere, that of an OMPL planner for example, in the world of \e
-            scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
+        /** \brief Drives a given path, for example of an OMPL planner, in the world of \e scenario without replanning.
+            The result has one leg, whose plan contains only the path. */
         ParkingResult drive(const Scenario &scenario, const Path &path) const;
 
     private:
@@ -132,6 +139,6 @@ namespace parking
         MapUpdate update_;
     };
 
-    /** \brief The figures of several drives, one after the other, as if they were one. */
+    /** \brief Combines the figures of several consecutive drives into those of one drive. */
     Evaluation combined(const std::vector<Evaluation> &drives);
 }  // namespace parking

@@ -24,9 +24,9 @@ namespace parking
     namespace
     {
         constexpr double SAME_POSE = 1e-6;  // metres and radians, as for joined()
-        constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWorth
+        constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWeight
 
-        /** A step of the ladder: how far to stay away from everything, and how tightly to turn. Metres. */
+        /** Parameters of an attempt: gap and turning radius, in metres. */
         struct ClearanceLevel
         {
             double gap;           ///< required
@@ -35,18 +35,18 @@ namespace parking
             double checkMargin;   ///< and for constructed manoeuvres and smoothing
         };
 
-        /** What a level has led to: a way from start to goal, or, where only the way in is required, that. */
+        /** Result of an attempt: a path from start to goal, or only the slot entry if that is required. */
         struct Candidate
         {
-            ReverseParkingResult manoeuvre;  ///< the way into the slot; no pieces where there is none
-            Path approach,                   ///< from the start to where the manoeuvre begins, or all the way
+            ReverseParkingResult manoeuvre;  ///< slot entry; no pieces if there is none
+            Path approach,                   ///< from the start to the manoeuvre, or all the way
                 arcs;                        ///< both, from start to goal
-            Pose goal;                       ///< the pose that the way ends at
-            /** Metres, 0 for a way in alone; infinite when nothing was found. */
+            Pose goal;                       ///< last pose of the path
+            /** Metres, 0 for a slot entry only; infinite if no path was found. */
             double cost{std::numeric_limits<double>::infinity()};
             std::size_t stretches{0};                         ///< at the slot
-            ClearanceLevel level{};                           ///< what it was found with
-            std::shared_ptr<const FootprintChecker> checker;  ///< within whose margin it may be smoothed
+            ClearanceLevel level{};                           ///< level of the attempt
+            std::shared_ptr<const FootprintChecker> checker;  ///< whose margin the smoothed path must keep
 
             bool found() const
             {
@@ -59,7 +59,7 @@ namespace parking
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        /** The making of one plan: climbs the ladder, compares what its levels lead to, and smooths the best. */
+        /** Makes one plan: runs the attempts, compares their results, and smooths the best. */
         class Planning
         {
         public:
@@ -68,7 +68,7 @@ namespace parking
                 parameters_(parameters),
                 tuning_(parameters.tuning),
                 world_(world),
-                inStretches_(parameters.wayIn == WayIn::InStretches)
+                inStretches_(parameters.entryMode == EntryMode::InStretches)
             {
             }
 
@@ -93,16 +93,16 @@ namespace parking
                 plan_.gap = best.level.gap;
                 plan_.turningRadius = best.level.radius;
                 smooth(*best.checker);
-                plan_.clearance = leastClearance(world_.footprint(), plan_.path);
+                plan_.clearance = minClearance(world_.footprint(), plan_.path);
                 plan_.message =
-                    (plan_.manoeuvre.path.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
+                    (plan_.manoeuvre.path.pieces.empty() ? "searched all the way" : "approach and manoeuvre") +
                     std::string(", at least ") + centimetres(plan_.clearance) + " from obstacles";
                 return std::move(plan_);
             }
 
-            ReverseParkingResult wayIn()
+            ReverseParkingResult planSlotEntry()
             {
-                onlyWayIn_ = true;
+                onlySlotEntry_ = true;
                 Candidate best = climb();
                 return best.found() ? std::move(best.manoeuvre) : verdict_.value_or(ReverseParkingResult{});
             }
@@ -114,45 +114,46 @@ namespace parking
                 plan_.message = message;
             }
 
-            /** Looks at start and goals; false when the plan is finished with that. */
+            /** Checks start and goals. \return false if the plan is finished */
             bool checkEnds()
             {
                 const FootprintChecker &body = world_.footprint();
                 if (!body.isFree(scenario_.start))
                 {
-                    fail(ParkingStatus::InvalidStart, "the car is in collision, or outside, where it starts");
+                    fail(ParkingStatus::InvalidStart, "the car collides or is outside the world at its start");
                     return false;
                 }
-                startRoom_ = body.exactClearance(scenario_.start);
-                double goalRoom = -1.0;
+                startClearance_ = body.exactClearance(scenario_.start);
+                double goalClearance = -1.0;
                 for (const Pose &goal : scenario_.goals)
                     if (body.isFree(goal))
                     {
-                        goalRoom = std::max(goalRoom, body.exactClearance(goal));
+                        goalClearance = std::max(goalClearance, body.exactClearance(goal));
                         if (isSamePose(scenario_.start, goal, SAME_POSE))
                             return stay(goal);
                     }
-                if (goalRoom < 0.0)
-                    fail(ParkingStatus::InvalidGoal, "the car is in collision, or outside, at the goal");
-                else if (inStretches_ && startRoom_ <= PlanningParameters::LEAST_GAP_IN_STRETCHES)
-                    fail(ParkingStatus::InvalidStart, "the start is nearer to an obstacle than the least gap of 4 mm");
+                if (goalClearance < 0.0)
+                    fail(ParkingStatus::InvalidGoal, "the car collides or is outside the world at its goal");
+                else if (inStretches_ && startClearance_ <= PlanningParameters::MIN_GAP_IN_STRETCHES)
+                    fail(ParkingStatus::InvalidStart,
+                         "the start is nearer to an obstacle than the minimum gap of 4 mm");
                 else
                 {
-                    mostGap_ = std::min(startRoom_, goalRoom);
+                    maxGap_ = std::min(startClearance_, goalClearance);
                     watch_ = Stopwatch();
                     return true;
                 }
                 return false;
             }
 
-            /** The car stands at its goal already. */
+            /** Finishes the plan of a car that already stands at its goal. */
             bool stay(const Pose &goal)
             {
                 plan_.found = true;
-                plan_.message = "the car stands at the goal already";
+                plan_.message = "the car already stands at the goal";
                 plan_.goal = goal;
                 plan_.approach = plan_.arcs = plan_.path = Path{scenario_.start, {}};
-                plan_.clearance = startRoom_;
+                plan_.clearance = startClearance_;
                 return false;
             }
 
@@ -169,26 +170,26 @@ namespace parking
                 return parameters_.interrupted && parameters_.interrupted();
             }
 
-            /** Is the time up, or was planning interrupted? */
+            /** Whether the time limit has passed or planning was interrupted. */
             bool isOver() const
             {
                 return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
             }
 
-            /** Is it time for the last resort? */
+            /** Whether only the last attempt may start. */
             bool isLate() const
             {
-                return isInterrupted() || watch_.seconds() > tuning_.shareForTries * parameters_.timeLimit;
+                return isInterrupted() || watch_.seconds() > tuning_.attemptsShare * parameters_.timeLimit;
             }
 
-            /** A step for WayIn::InStretches: its searches keep up to a tolerance less than asked, and smoothing may
-                use half of the gap. */
+            /** A level for EntryMode::InStretches. Its searches keep up to a tolerance less than the gap, and smoothing
+                may use half of it. */
             ClearanceLevel levelInStretches(double gap, double radius) const
             {
                 return {gap, radius, gap - tuning_.sweepTolerance, 0.5 * gap};
             }
 
-            /** All tries, in their order. */
+            /** The levels of all attempts in order. */
             std::vector<ClearanceLevel> ladder() const
             {
                 const std::vector<double> &gaps = parameters_.gaps;
@@ -196,7 +197,7 @@ namespace parking
                 std::vector<ClearanceLevel> levels;
                 if (inStretches_)
                 {
-                    // The gap, and with it the reserve of steering, is given up step by step.
+                    // The gap and the reserve of steering decrease step by step.
                     const auto last = static_cast<double>(gaps.size() - 1);
                     for (std::size_t i = 0; i < gaps.size(); ++i)
                     {
@@ -207,12 +208,12 @@ namespace parking
                 }
                 for (const double each : factor > 1.0 ? std::vector<double>{factor, 1.0} : std::vector<double>{1.0})
                     for (const double gap : gaps)
-                        if (gap == 0.0 || gap < mostGap_)
+                        if (gap == 0.0 || gap < maxGap_)
                             levels.push_back({gap, each * smallest, gap, gap});
                 return levels;
             }
 
-            /** The best of all tries. */
+            /** The best result of all attempts. */
             Candidate climb()
             {
                 const std::vector<ClearanceLevel> levels = ladder();
@@ -237,8 +238,9 @@ namespace parking
                     return true;
                 if (inStretches_)
                     return best.stretches > tuning_.manyStretches;
-                // Nothing that a smaller gap allows can be shorter than the bare curve.
-                return level.radius == best.level.radius && leastLength(level.radius) + worth(level.gap) < price(best);
+                // No path with a smaller gap is shorter than the curve without obstacles.
+                return level.radius == best.level.radius &&
+                       minLength(level.radius) + gapCost(level.gap) < totalCost(best);
             }
 
             bool isBetter(const Candidate &next, const Candidate &best) const
@@ -248,21 +250,21 @@ namespace parking
                 if (inStretches_)
                     return static_cast<double>(next.stretches) <=
                            (1.0 - tuning_.minStretchSaving) * static_cast<double>(best.stretches);
-                return price(next) < price(best);
+                return totalCost(next) < totalCost(best);
             }
 
-            double worth(double gap) const
+            double gapCost(double gap) const
             {
-                return parameters_.gapWorth * GAP_UNIT / (gap + tuning_.gapOffset);
+                return parameters_.gapWeight * GAP_UNIT / (gap + tuning_.gapOffset);
             }
 
-            double price(const Candidate &candidate) const
+            double totalCost(const Candidate &candidate) const
             {
-                return candidate.cost + worth(candidate.level.gap);
+                return candidate.cost + gapCost(candidate.level.gap);
             }
 
-            /** Length of the shortest curve to any goal, obstacles or not. */
-            double leastLength(double radius) const
+            /** Length of the shortest curve to any goal, ignoring obstacles. */
+            double minLength(double radius) const
             {
                 const ReedsShepp curves(radius);
                 double least = std::numeric_limits<double>::infinity();
@@ -271,7 +273,7 @@ namespace parking
                 return least;
             }
 
-            /** The body, enlarged for searches and for everything else; null where it is larger than the world. */
+            /** Checkers of the body enlarged for searches and for other checks; null if it is larger than the world. */
             struct Checkers
             {
                 std::shared_ptr<const FootprintChecker> search, check;
@@ -286,36 +288,36 @@ namespace parking
                 return body;
             }
 
-            /** What \e level allows. \param last there is no other: the search all the way is granted all of the time
-             */
+            /** The best path of \e level. \param last whether it is the last attempt, whose search may use the
+                remaining time */
             Candidate find(ClearanceLevel level, bool last)
             {
                 Checkers body = checkers(level);
                 if (!body.search || !body.check)
                     return {};
-                const bool constructed = scenario_.slot && parameters_.wayIn != WayIn::Searched;
-                std::vector<ReverseParkingResult> ways;
+                const bool constructed = scenario_.slot && parameters_.entryMode != EntryMode::Searched;
+                std::vector<ReverseParkingResult> entries;
                 if (constructed)
-                    ways = waysIn(level, body);
-                // What was not found out of the slot is not looked for into it.
-                if (ways.empty() && (onlyWayIn_ || (constructed && inStretches_)))
+                    entries = slotEntries(level, body);
+                // If no path out of the slot was found, no search into it is made.
+                if (entries.empty() && (onlySlotEntry_ || (constructed && inStretches_)))
                     return {};
                 Candidate best;
-                if (onlyWayIn_)
+                if (onlySlotEntry_)
                 {
-                    best.manoeuvre = ways.front();
+                    best.manoeuvre = entries.front();
                     best.cost = 0.0;
                 }
                 else
                 {
-                    const double most = tuning_.shareOfStartGap * startRoom_;
+                    const double most = tuning_.shareOfStartGap * startClearance_;
                     if (inStretches_ && most < level.gap)
                     {
                         level = levelInStretches(most, level.radius);
                         body = checkers(level);
                     }
-                    if (!ways.empty())
-                        best = throughManoeuvre(ways, fromStart(level), *body.search);
+                    if (!entries.empty())
+                        best = throughManoeuvre(entries, fromStart(level), *body.search);
                     if (!best.found() || !inStretches_)
                     {
                         Candidate whole = allTheWay(fromStart(level), *body.search, last);
@@ -325,29 +327,29 @@ namespace parking
                 }
                 best.level = level;
                 best.checker = body.check;
-                best.stretches = ways.empty() ? 0 : ways.front().path.stretches().size();
+                best.stretches = entries.empty() ? 0 : entries.front().path.stretches().size();
                 return best;
             }
 
-            /** The ways into the slot that \e level allows, from P in the aisle to the parked pose: all that are one
-                sweep, otherwise the best in several stretches. */
-            std::vector<ReverseParkingResult> waysIn(const ClearanceLevel &level, const Checkers &body)
+            /** The slot entries of \e level, from P in the aisle to the parked pose: all in one sweep, otherwise the
+                best in several stretches. */
+            std::vector<ReverseParkingResult> slotEntries(const ClearanceLevel &level, const Checkers &body)
             {
                 ReverseParkingOptions sweep = parameters_.sweep;
-                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise the checker has it already
+                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise included in the checker
                 if (!inStretches_ && sweep.preferredRadius == 0.0)
                     sweep.preferredRadius =
                         std::max(level.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
                 const ReverseParking parking(scenario_.vehicle, sweep);
                 const FootprintQueries queries = queriesOf(*body.check);
-                std::vector<ReverseParkingResult> ways = parking.planAll(*scenario_.slot, queries);
-                ReverseParkingResult result = ways.front();
-                ways.erase(std::remove_if(ways.begin(), ways.end(),
-                                          [](const ReverseParkingResult &way)
-                                          { return !way.fits() || way.path.pieces.empty(); }),
-                           ways.end());
-                if (!ways.empty())
-                    return ways;
+                std::vector<ReverseParkingResult> entries = parking.planAll(*scenario_.slot, queries);
+                ReverseParkingResult result = entries.front();
+                entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                             [](const ReverseParkingResult &entry)
+                                             { return !entry.fits() || entry.path.pieces.empty(); }),
+                              entries.end());
+                if (!entries.empty())
+                    return entries;
                 if (inStretches_)
                 {
                     const auto leave = [&](const SlotExitTask &task)
@@ -358,11 +360,11 @@ namespace parking
                     result = planInStretches(parking, *scenario_.slot, queries, leave);
                     if (result.fits())
                         return {std::move(result)};
-                    result.message += "; nor was a way in several stretches found";
+                    result.message += "; no slot entry in several stretches was found, either";
                 }
                 if (!verdict_)
                     verdict_ = std::move(result);
-                return ways;
+                return entries;
             }
 
             struct SearchTask
@@ -372,8 +374,8 @@ namespace parking
                 Box bounds;  ///< of the rear axle
                 double radius;
                 double gearChange;
-                bool bothSides;            ///< search from both ends; otherwise out of \e from
-                std::uint64_t expansions;  ///< 0: as many as there is time for
+                bool bothSides;            ///< whether to search from both ends; otherwise from \e from only
+                std::uint64_t expansions;  ///< 0: limited by time only
             };
 
             SearchTask fromStart(const ClearanceLevel &level) const
@@ -387,27 +389,27 @@ namespace parking
                         parameters_.expansionsPerGap};
             }
 
-            /** To where one of \e ways begins, and on along it. */
-            Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &ways, SearchTask task,
+            /** Plans to the start of one of \e entries, and appends it. */
+            Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &entries, SearchTask task,
                                        const FootprintChecker &checker)
             {
                 Candidate candidate;
-                for (const ReverseParkingResult &way : ways)
-                    task.to.push_back(way.path.start);
+                for (const ReverseParkingResult &entry : entries)
+                    task.to.push_back(entry.path.start);
                 candidate.approach = search(checker, task);
-                for (const ReverseParkingResult &way : ways)
-                    if (isSamePose(candidate.approach.end(), way.path.start, SAME_POSE))
+                for (const ReverseParkingResult &entry : entries)
+                    if (isSamePose(candidate.approach.end(), entry.path.start, SAME_POSE))
                     {
-                        candidate.manoeuvre = way;
-                        candidate.goal = way.goal;
-                        candidate.arcs = joined(candidate.approach, way.path);
+                        candidate.manoeuvre = entry;
+                        candidate.goal = entry.goal;
+                        candidate.arcs = joined(candidate.approach, entry.path);
                         candidate.cost = cost(candidate.arcs);
                         break;
                     }
                 return candidate;
             }
 
-            /** The search's own way to one of the goals. */
+            /** Searches the whole path to one of the goals. */
             Candidate allTheWay(SearchTask task, const FootprintChecker &checker, bool last)
             {
                 Candidate candidate;
@@ -429,10 +431,10 @@ namespace parking
                 return candidate;
             }
 
-            /** Without pieces when nothing was found. */
+            /** The path found; without pieces if there is none. */
             Path search(const FootprintChecker &checker, const SearchTask &task)
             {
-                ++plan_.tries;
+                ++plan_.attempts;
                 FootprintEnvironment environment(checker, task.bounds, tuning_.sweepTolerance);
                 search::PlanRequest request;
                 request.starts = {task.from};
@@ -445,7 +447,7 @@ namespace parking
                 request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
                 request.parameters.preferredClearance = parameters_.preferredClearance;
                 request.parameters.clearanceCost = parameters_.clearanceCost;
-                request.parameters.detours = task.bothSides;  // out of a slot they lead in more stretches
+                request.parameters.detours = task.bothSides;  // out of a slot they need more stretches
                 request.parameters.approximate = false;
                 request.maxExpansions = task.expansions;
                 request.stop = [this, isLast = task.expansions == 0]
@@ -457,7 +459,7 @@ namespace parking
                 return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
             }
 
-            /** Cost as of the car itself, so that paths planned with different gaps can be compared. */
+            /** Cost for the car without a gap, so that paths of different gaps can be compared. */
             double cost(const Path &path) const
             {
                 FootprintEnvironment environment(world_.footprint(), scenario_.bounds, tuning_.sweepTolerance);
@@ -478,7 +480,7 @@ namespace parking
                 {
                     plan_.smooth =
                         PathSmoother(scenario_.vehicle, parameters_.smoothing).smooth(plan_.arcs, queriesOf(checker));
-                    // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
+                    // The arcs were swept. If the smoothed path cannot be proved free, they are kept.
                     if (plan_.smooth.free && isPathFree(world_.footprint(), plan_.smooth.path))
                         plan_.path = plan_.smooth.path;
                     else
@@ -492,11 +494,11 @@ namespace parking
             const PlanningTuning &tuning_;
             const ParkingWorld &world_;
             const bool inStretches_;
-            bool onlyWayIn_{false};  // the part at the slot is enough, wherever the car comes from
-            double startRoom_{0.0};  // metres, what the start leaves all round the body
-            double mostGap_{std::numeric_limits<double>::infinity()};  // metres, what start and goal leave
-            Stopwatch watch_;                                          // of the tries
-            std::optional<ReverseParkingResult> verdict_;              // of the first try that found no way in: why not
+            bool onlySlotEntry_{false};                               // only the slot entry is required, for any start
+            double startClearance_{0.0};                              // metres, clearance of the body at the start
+            double maxGap_{std::numeric_limits<double>::infinity()};  // metres, smaller clearance of start and goal
+            Stopwatch watch_;                                         // of all attempts
+            std::optional<ReverseParkingResult> verdict_;  // reason of the first attempt without a slot entry
             ParkingPlan plan_;
         };
     }  // namespace
@@ -549,10 +551,10 @@ namespace parking
         return Planning(scenario, parameters_, world).plan();
     }
 
-    ReverseParkingResult ParkingPlanner::wayIn(const Scenario &scenario, const ParkingWorld &world) const
+    ReverseParkingResult ParkingPlanner::planSlotEntry(const Scenario &scenario, const ParkingWorld &world) const
     {
         if (!scenario.slot)
             throw Error("scenario " + scenario.name + ": it has no slot");
-        return Planning(scenario, parameters_, world).wayIn();
+        return Planning(scenario, parameters_, world).planSlotEntry();
     }
 }  // namespace parking

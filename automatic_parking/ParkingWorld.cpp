@@ -11,9 +11,9 @@ namespace parking
 {
     namespace
     {
-        // How exactly the least clearance is found: the promise of leastClearance().
+        // Accuracy of minClearance().
         constexpr double CLEARANCE_STEP = 1e-3;   // metres
-        constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
+        constexpr double CLEARANCE_SHARE = 0.01;  // or this share of the clearance
     }                                             // namespace
 
     ParkingWorld::ParkingWorld(const Scenario &scenario, ContactTestMaker contact)
@@ -38,12 +38,12 @@ namespace parking
         }
     }
 
-    double leastClearance(const FootprintChecker &checker, const Path &path)
+    double minClearance(const FootprintChecker &checker, const Path &path)
     {
         double least = checker.exactClearance(path.start);
         Pose from = path.start;
-        // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point has
-        // moved by the difference.
+        // From a pose with clearance c the body cannot reach the minimum before its fastest point has moved by the
+        // difference.
         for (const PathPiece &piece : path.pieces)
         {
             const double bend = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));

@@ -8,18 +8,18 @@
 
 namespace parking
 {
-    /** \brief Least distance in metres between the body and the obstacles along \e path, to a millimetre or one
-        percent; 0 when they touch. */
-    double leastClearance(const FootprintChecker &checker, const Path &path);
+    /** \brief Minimum distance in metres between the body and the obstacles along \e path, to a millimetre or one
+        percent; 0 in contact. */
+    double minClearance(const FootprintChecker &checker, const Path &path);
 
-    /** \brief Obstacles that can be asked. Cheap to copy. */
+    /** \brief Obstacles with collision checkers for a car. Cheap to copy. */
     class ParkingWorld
     {
     public:
-        /** \brief Reads the obstacles of \e scenario, for its car. Throws what FootprintChecker throws.
+        /** \brief Reads the obstacles of \e scenario for its car. Throws what FootprintChecker throws.
 
-            \param contact decides poses so near to contact that rounding does (see FootprintChecker); without one they
-            count as touching */
+            \param contact decides poses within rounding errors of contact (see FootprintChecker); without it they
+            collide */
         explicit ParkingWorld(const Scenario &scenario, ContactTestMaker contact = {});
 
         /** \brief The checker of the car's own rectangle. */
@@ -28,7 +28,7 @@ namespace parking
             return *footprint_;
         }
 
-        /** \brief A checker of the rectangle enlarged by \e gap metres on every side; null where it is larger than the
+        /** \brief A checker of the rectangle enlarged by \e gap metres on every side; null if it is larger than the
             world. */
         std::shared_ptr<const FootprintChecker> enlarged(double gap) const;
 

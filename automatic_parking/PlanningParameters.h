@@ -11,96 +11,98 @@
 
 namespace parking
 {
-    /** \brief How much of the way is constructed, and not searched from the start. */
-    enum class WayIn
+    /** \brief Method of planning the slot entry. */
+    enum class EntryMode
     {
-        Searched,    ///< nothing: the search goes all the way, as it does for goals without a slot
-        OneSweep,    ///< the way into the slot, where a manoeuvre of ReverseParking fits
-        InStretches  ///< the same; where none fits it is searched out of the slot, in as many stretches as it takes
+        Searched,    ///< the search plans the whole path, as for goals without a slot
+        OneSweep,    ///< ReverseParking constructs the slot entry in one sweep, if such a manoeuvre fits
+        InStretches  ///< as OneSweep; if no sweep fits, a search out of the slot finds an entry in several stretches
     };
 
-    /** \brief The constants that planning into slots was tuned with.
+    /** \brief Tuned constants of planning into slots.
 
-        None of them changes what counts as free. The values were chosen by hand on the known problems: the bundled
+        None of them changes which poses are free. The values were chosen by hand on the tuning set: the bundled
         scenarios, the TPCAP cases, and the slots of docs/results/car-slot-table.md. */
     struct PlanningTuning
     {
-        /** Metres: motions are proved free as long as they stay so far from contact. */
+        /** Metres from contact down to which motions are proved free. */
         double sweepTolerance{1e-3};
 
-        /** \name Whole ways
+        /** \name Whole paths
             @{ */
-        double shareForTries{0.5};        ///< of the time limit, that all tries but the last may take together
-        double gapOffset{0.02};           ///< metres, in PlanningParameters::gapWorth: what no gap at all counts as
-        double manoeuvreRadius{1.1};      ///< of one sweep where there is room, in smallest turning radii
-        double manoeuvrePreference{1.5};  ///< a search all the way must be cheaper than a manoeuvre by this factor
+        double attemptsShare{0.5};    ///< share of the time limit for all attempts except the last
+        double gapOffset{0.02};       ///< metres added to each gap, see PlanningParameters::gapWeight
+        double manoeuvreRadius{1.1};  ///< preferred radius of a sweep, in minimum turning radii
+        /** Factor by which a search of the whole path must be cheaper than a manoeuvre. */
+        double manoeuvrePreference{1.5};
         /** @} */
 
-        /** \name Ways in several stretches
+        /** \name Slot entries in several stretches
             @{ */
-        double gearChangeInSlot{4.0};   ///< metres that a change of direction may save on the way out of the slot
-        std::size_t manyStretches{8};   ///< ways in of more stretches are sought with the next gap, too,
-        double minStretchSaving{0.25};  ///< which is taken when it saves this share of them
-        double shareOfStartGap{0.9};    ///< a start nearer to obstacles than the gap is left with this share of its own
+        double gearChangeInSlot{4.0};   ///< metres, cost of a change of direction on the path out of the slot
+        std::size_t manyStretches{8};   ///< number of stretches above which the next gap is tried, too
+        double minStretchSaving{0.25};  ///< share of stretches that the next gap must save
+        double shareOfStartGap{0.9};    ///< share of its own clearance kept by a start nearer to obstacles than the gap
         /** @} */
 
-        /** \name Slots of which only the size is known (SlotQuestions.h)
+        /** \name Slots of known size only (SlotQuestions.h)
             @{ */
-        double reach{15.0};       ///< metres of neighbours and walls to either side
-        double openAisle{15.0};   ///< metres after which an aisle without a wall across ends
-        double growthStep{0.25};  ///< metres by which a slot that is too small grows
-        double mostGrowth{2.0};   ///< metres after which it is given up
+        double reach{15.0};       ///< metres of neighbours and walls on either side
+        double openAisle{15.0};   ///< metres, width of an aisle without an opposite wall
+        double growthStep{0.25};  ///< metres by which a slot that is too small grows per step
+        double maxGrowth{2.0};    ///< metres of growth at which the search for a slot size ends
         /** @} */
     };
 
-    /** \brief How a parking path is planned: what is tried in which order, and what counts as better.
+    /** \brief Parameters of a parking planner: the order of its attempts and its cost.
 
-        The defaults are for driving in a measured world, intoTightSlots() for slots that leave centimetres. The values
-        of both were chosen as those of PlanningTuning. */
+        The defaults are for driving in a measured world; intoTightSlots() is for slots with centimetres of clearance.
+        The values of both were chosen as those of PlanningTuning. */
     struct PlanningParameters
     {
-        /** Metres, of WayIn::InStretches: searches keep up to a sweep tolerance less than asked, smoothing half. */
-        static constexpr double LEAST_GAP_IN_STRETCHES = 0.004;
+        /** Minimum gap of EntryMode::InStretches, in metres. Searches keep up to a sweep tolerance less than the gap,
+            smoothing half. */
+        static constexpr double MIN_GAP_IN_STRETCHES = 0.004;
 
-        /** Seconds for all tries together; infinite: searches end by expansions alone, on any machine alike. */
+        /** Seconds for all attempts in total. If it is infinite, searches end by expansions alone, independent of the
+            machine. */
         double timeLimit{10.0};
 
-        /** Asked now and then while planning; once it says yes nothing more is tried. May be empty. */
+        /** Polled while planning; once it returns true, no further attempt starts. May be empty. */
         std::function<bool()> interrupted;
 
-        /** Gaps in metres kept all round the body, largest first. One that start or goal do not leave is not tried.
-            \e InStretches: at least 4 mm, and a start that leaves less is left with the room it has. */
+        /** Gaps in metres around the body, largest first. A gap larger than the clearance of start or goal is skipped.
+            \e InStretches requires at least 4 mm, and leaves a closer start with its own clearance. */
         std::vector<double> gaps{0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
 
-        /** What a gap is worth: of two paths the one with the smaller cost + gapWorth * 0.25 m / (gap + 0.02 m) is
-            taken, in metres. At 3, keeping 25 cm may cost 7 m of way more than 6 cm, and 6 cm 28 m more than
-            grazing. */
-        double gapWorth{3.0};
+        /** Weight of a gap, in metres. Of two paths the planner chooses the smaller cost + gapWeight * 0.25 m / (gap +
+            0.02 m). At 3, a gap of 25 cm may cost 7 m of path more than 6 cm, and 6 cm 28 m more than contact. */
+        double gapWeight{3.0};
 
-        /** Expansions after which a gap is given up; the last one is granted all of the time, where that is limited. */
+        /** Expansions per gap. The last gap may use all of the remaining time, if that is limited. */
         std::uint64_t expansionsPerGap{4000};
 
-        /** Planned turning radius over the car's smallest, at least 1: what is above 1 is room for smoothing and
-            correcting. It is given up, down to 1, where nothing else gets through; \e InStretches together with the
+        /** Planned turning radius over the car's minimum, at least 1. The excess is reserved for smoothing and
+            corrections. It is lowered to 1 if no other path is found; \e InStretches lowers it together with the
             gap. */
         double radiusFactor{1.05};
 
-        double gearChangePenalty{2.0};      ///< metres that a change of direction may save
-        double steeringChangePenalty{0.1};  ///< metres that turning the wheels to full lock may save
+        double gearChangePenalty{2.0};      ///< metres, cost of a change of direction
+        double steeringChangePenalty{0.1};  ///< metres, cost of steering to full lock
         double preferredClearance{0.5};     ///< metres kept from obstacles where that is cheap; 0: none
-        double clearanceCost{1.0};          ///< extra cost per metre driven nearer than that
+        double clearanceCost{1.0};          ///< extra cost per metre driven closer than preferredClearance
 
-        WayIn wayIn{WayIn::OneSweep};  ///< into slots; without a slot everything is searched
-        /** Of the manoeuvre in one sweep. Its clearance is not looked at: \e gaps say it. */
+        EntryMode entryMode{EntryMode::OneSweep};  ///< for slots; without a slot the whole path is searched
+        /** Options of the manoeuvre in one sweep. Its clearance is ignored: \e gaps replaces it. */
         ReverseParkingOptions sweep;
 
-        bool smooth{true};           ///< make the curvature continuous
-        SmoothingOptions smoothing;  ///< of the path's curvature, where \e smooth is set
+        bool smooth{true};           ///< whether the curvature is made continuous
+        SmoothingOptions smoothing;  ///< of the path's curvature, if \e smooth is set
 
-        PlanningTuning tuning;  ///< constants that seldom need another value
+        PlanningTuning tuning;  ///< tuned constants, seldom changed
 
-        /** \brief For slots that leave centimetres, in a world that is as it is drawn: ways in several stretches, gaps
-            of 5, 2 and 1 cm, few stretches before all else, and no clock.
+        /** \brief Parameters for slots with centimetres of clearance, in an exactly known world. They use slot entries
+            in several stretches, gaps of 5, 2 and 1 cm, few stretches as the main criterion, and no time limit.
 
             \param aisleWidth metres, see ReverseParkingOptions */
         static PlanningParameters intoTightSlots(double aisleWidth = std::numeric_limits<double>::infinity());

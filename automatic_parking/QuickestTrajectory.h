@@ -11,29 +11,29 @@
 
 namespace parking
 {
-    /** \brief How quickestTrajectory() goes about it. */
+    /** \brief Options of quickestTrajectory(). */
     struct QuickestTrajectoryOptions
     {
-        TrajectoryOptions trajectory;        ///< of the optimiser
-        bool alternatives{true};             ///< whether other paths are looked for
-        std::vector<Path> others;            ///< known already: other ways between the same poses
-        bool forwardOnly{false};             ///< whether those must not drive in reverse
-        std::uint64_t mostExpansions{1600};  ///< of the searches for all of them
+        TrajectoryOptions trajectory;       ///< options of the optimiser
+        bool alternatives{true};            ///< whether alternative paths are searched
+        std::vector<Path> others;           ///< known alternative paths between the same poses
+        bool forwardOnly{false};            ///< whether alternative paths must not drive in reverse
+        std::uint64_t maxExpansions{1600};  ///< of the searches for all alternatives in total
     };
 
-    /** \brief A trajectory, and the path that it was made from. */
+    /** \brief A trajectory and the path from which it was optimised. */
     struct QuickestTrajectory
     {
-        OptimizedTrajectory trajectory;  ///< the quickest that was found
-        Path path;                       ///< the given path, or one of the others
-        std::size_t paths{1};            ///< that were optimised
+        OptimizedTrajectory trajectory;  ///< the quickest one found
+        Path path;                       ///< the given path or an alternative one
+        std::size_t paths{1};            ///< number of optimised paths
     };
 
-    /** \brief Other ways from the start of \e path to its end.
+    /** \brief Alternative paths from the start of \e path to its end.
 
-        The shortest path is not the quickest to drive: the wheels need time to turn, and a car needs time to change its
-        direction. So the search is asked for paths with wider arcs, fewer changes of direction and less steering. Paths
-        that are like one that is known are left out; so is \e path itself.
+        The shortest path is not the quickest to drive, because steering and changes of direction take time. The search
+        therefore looks for paths with wider arcs, fewer changes of direction and less steering. Paths similar to a
+        known one, or to \e path itself, are left out.
 
         \param bounds of the rear axle's positions */
     std::vector<Path> alternativePaths(const FootprintChecker &checker, const Box &bounds, const Path &path,

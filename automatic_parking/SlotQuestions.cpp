@@ -19,12 +19,12 @@ namespace parking
             return slot;
         }
 
-        /** Width of a perpendicular slot below which no body of that length and width gets round the corner of the
-            neighbour, however it moves.
+        /** Minimum width of a perpendicular slot for any motion of a body of this length and width round the corner of
+            the neighbour.
 
-            Turned by phi from the slot's axis, its side on the corner, the body reaches up to the far side of the aisle
-            and down to the other side of the slot: length <= (aisle - width sin phi) / cos phi + (slot - width cos phi)
-            / sin phi. Once the aisle holds all of it the slot does not matter. */
+            The body is turned by phi from the slot's axis with its side on the corner. It reaches up to the far side of
+            the aisle and down to the other side of the slot: length <= (aisle - width sin phi) / cos phi + (slot -
+            width cos phi) / sin phi. Once the aisle contains the whole body, the slot does not matter. */
         double widthToTurnInto(double length, double width, double aisle)
         {
             double needed = width;
@@ -39,7 +39,7 @@ namespace parking
             return needed;
         }
 
-        /** Why no search can find a way in, if that can be said beforehand. */
+        /** The reason why no search can find a slot entry, if it is known beforehand. */
         std::optional<ReverseParkingResult> hopeless(const PlanningParameters &parameters, const Vehicle &vehicle,
                                                      const ParkingSlot &slot)
         {
@@ -72,7 +72,7 @@ namespace parking
         problem.slot = withSide(slot);
         problem.goals = problem.slot->goals(vehicle);
         problem.polygons = slotSurroundings(*problem.slot, problem.slot->side, aisle, tuning.reach);
-        // Neighbours and walls end somewhere; the car shall not look for a way round their ends.
+        // Neighbours and walls are finite; the car must not drive round their ends.
         const double reach = 0.5 * slot.length + (std::isfinite(aisle) ? aisle : tuning.openAisle) + tuning.reach;
         problem.bounds = {{slot.pose.x - reach, slot.pose.y - reach}, {slot.pose.x + reach, slot.pose.y + reach}};
         if (start)
@@ -87,12 +87,12 @@ namespace parking
         return problem;
     }
 
-    ReverseParkingResult wayIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot)
+    ReverseParkingResult planSlotEntry(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot)
     {
         if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
             return *verdict;
         const Scenario problem = slotProblem(planner.parameters(), vehicle, slot);
-        return planner.wayIn(problem, ParkingWorld(problem));
+        return planner.planSlotEntry(problem, ParkingWorld(problem));
     }
 
     double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
@@ -107,21 +107,21 @@ namespace parking
         const double least = (parallel ? vehicle.length() : vehicle.width) + 2.0 * planner.parameters().gaps.back();
         const auto fits = [&](const ParkingSlot &size)
         {
-            return wayIntoSlot(planner, vehicle, size).fits();
+            return planSlotEntry(planner, vehicle, size).fits();
         };
         ParkingSlot tried = slot;
         tried.depth.reset();
         tried.lateralOffset = 0.0;
         tried.*dimension = std::max(slot.*dimension, least);
         for (double grown = 0.0; !fits(tried); grown += tuning.growthStep, tried.*dimension += tuning.growthStep)
-            if (grown >= tuning.mostGrowth)
+            if (grown >= tuning.maxGrowth)
                 return std::numeric_limits<double>::infinity();
         // By bisection, as larger slots are never worse.
         double low = least, high = tried.*dimension;
         while (high - low > precision)
         {
             tried.*dimension = 0.5 * (low + high);
-            // A precision may be finer than the numbers are.
+            // The precision may be finer than the resolution of the numbers.
             if (!(tried.*dimension > low && tried.*dimension < high))
                 break;
             (fits(tried) ? high : low) = tried.*dimension;

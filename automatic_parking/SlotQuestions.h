@@ -11,25 +11,26 @@
 
 namespace parking
 {
-    // Questions about slots of which only the size is known: does the car get in, how, and how small may they be? The
-    // world is that of slotSurroundings(), with the aisle of the planner's parameters().sweep; slots that do not say
-    // their side lie on the right. The planner should be one of PlanningParameters::intoTightSlots(). All functions
-    // throw parking::Error for an invalid slot and for one smaller than the car, naming the missing centimetres.
+    // These functions answer whether and how a car enters a slot of given size, and how small the slot may be. The
+    // world is that of slotSurroundings(), with the aisle of the planner's parameters().sweep. Slots without a side lie
+    // on the right. Use a planner with PlanningParameters::intoTightSlots(). All functions throw parking::Error for an
+    // invalid slot and for one smaller than the car, naming the missing centimetres.
 
-    /** \brief The problem: \e slot in its regular world, large enough for \e start where that is given; all the way
-       from there is what ParkingPlanner::plan() makes of it. */
+    /** \brief The problem of parking in \e slot in its regular world, large enough for \e start if that is given.
+        ParkingPlanner::plan() plans the whole path from there. */
     Scenario slotProblem(const PlanningParameters &parameters, const Vehicle &vehicle, const ParkingSlot &slot,
                          const std::optional<Pose> &start = std::nullopt);
 
-    /** \brief The part at the slot: from P in the aisle to the parked pose. Its path says in how many stretches,
-        neededSlotLength and neededAisleWidth what one sweep would need. */
-    ReverseParkingResult wayIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot);
+    /** \brief Plans the part at the slot, from P in the aisle to the parked pose. The stretches of its path are those
+        of the entry; neededSlotLength and neededAisleWidth are the sizes that one sweep requires. */
+    ReverseParkingResult planSlotEntry(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot);
 
-    /** \brief The shortest parallel slot, or the narrowest other one, in metres, that the car gets into in however many
-        stretches; centre, and the rest of \e slot, stay as they are.
+    /** \brief The minimum length of a parallel slot, or width of another one, in metres, that the car can enter in any
+        number of stretches. The centre and the other sizes of \e slot are kept.
 
-        By bisection to \e precision metres, from \e slot, or from larger ones where it does not fit; infinite when
-        PlanningTuning::mostGrowth more does not do. An upper bound: the search may have overlooked a way. */
+        It is found by bisection to \e precision metres, from \e slot or from larger ones if it is too small. The result
+        is infinite if PlanningTuning::maxGrowth does not suffice. It is an upper bound, because the search may miss a
+        path. */
     double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
                         double precision = 0.01);
 }  // namespace parking

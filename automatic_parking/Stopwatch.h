@@ -4,11 +4,11 @@
 
 namespace parking
 {
-    /** \brief Measures from when it was made, by a clock that is never set. */
+    /** \brief Measures the time since its construction, with a monotonic clock. */
     class Stopwatch
     {
     public:
-        /** \brief Since then. */
+        /** \brief Seconds since construction. */
         double seconds() const
         {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();

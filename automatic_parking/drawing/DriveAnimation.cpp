@@ -15,12 +15,12 @@ namespace parking
 {
     namespace
     {
-        constexpr double UNIT = 1e-4;            // metres, radians and so on to which numbers are written
+        constexpr double UNIT = 1e-4;            // resolution of written numbers
         constexpr double DRAWN_STEP = 0.1;       // metres between the states of a drawn path
         constexpr double RIGHT_OF_FRAME = 16.0;  // pixels for half of the last tick's label
         constexpr double PLOT_WIDTH = 944.0;     // pixels
 
-        // The page, with marks for what belongs to a drive.
+        // The page with placeholders for the data of a drive.
         const char *const PAGE =
 #include "DriveAnimationPage.inc"
             ;
@@ -44,7 +44,7 @@ namespace parking
         {
             if (driven.size() < 2)
                 throw Error("animation: the drive has " + std::to_string(driven.size()) +
-                            " points; at least 2 are needed");
+                            " points; at least 2 are required");
             for (std::size_t i = 0; i < driven.size(); ++i)
             {
                 const TrajectoryPoint &point = driven[i];
@@ -92,7 +92,7 @@ namespace parking
                 map.addLegend({"planned trajectory", style, SvgSample::Line});
         }
 
-        /** Of the map, and of the track behind the car, which the page draws. */
+        /** The legend of the map and of the track behind the car. */
         std::string legendOf(SvgMap map)
         {
             SvgStyle driven;
@@ -179,7 +179,7 @@ namespace parking
         replace(page, "@MAP@", map.toSvg(0.0, 0.0));
         replace(page, "@LEGEND@", legendOf(map));
         replace(page, "@PLOTS@", plotsOf(driven, car, reference));
-        // What users write comes last, so that no mark in it is taken for one of the page's.
+        // User text comes last, so that no placeholder in it is replaced.
         replace(page, "@SUBTITLE@", escaped(subtitle));
         replace(page, "@TITLE@", escaped(title));
         return page;

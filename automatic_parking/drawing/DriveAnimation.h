@@ -8,24 +8,23 @@
 
 namespace parking
 {
-    /** \brief A page that shows the car parking: an HTML file that needs nothing else, neither network nor scripts from
-        elsewhere.
+    /** \brief An HTML page that shows the drive: a single file without network access or external scripts.
 
-        The map with the planned path, the car with its wheels turning, its lights and the track behind it; buttons to
-        play, to pause and to go faster, a slider, the keys space and arrows; speed, acceleration and steering over time
-        with a cursor.
+        It contains the map with the planned path, and the car with its steered wheels, lights and track. Buttons, a
+        slider and the keys space and arrows play, pause and speed up the drive. Speed, acceleration and steering are
+        plotted over time with a cursor.
 
-        \param planned may be without pieces: not drawn then
+        \param planned not drawn without pieces
         \param driven a drive in the coordinates of \e scenario, times not decreasing
         \param title,subtitle plain text
-        \param reference the trajectory that the drive was to follow, in the coordinates of \e scenario: dashed on the
-       map and beside what was driven over time; may be empty Throws parking::Error for a drive of fewer than two points
-       or with a number that is not finite. */
+        \param reference the trajectory that the drive follows, in the coordinates of \e scenario, drawn dashed on the
+        map and in the plots; may be empty
+        Throws parking::Error for a drive of fewer than two points or with a number that is not finite. */
     std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                                const std::string &title, const std::string &subtitle = {},
                                const Trajectory &reference = {});
 
-    /** \brief Writes driveAnimation() to \e file, whole or not at all. Throws parking::Error naming the file, too. */
+    /** \brief Writes driveAnimation() to \e file atomically. Throws parking::Error naming the file. */
     void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
                              const Trajectory &driven, const std::string &title, const std::string &subtitle = {});
 }  // namespace parking

@@ -15,7 +15,7 @@ namespace parking
         constexpr double ROOM = 1.15;       // of a plot beyond the car's limits
         constexpr double DRAWN_STEP = 0.1;  // metres between the states of a drawn path
 
-        /** When the car drives in reverse. */
+        /** Time spans in reverse. */
         std::vector<SvgBand> reverseBands(const Trajectory &driven)
         {
             std::vector<SvgBand> bands;
@@ -77,7 +77,7 @@ namespace parking
             return poses;
         }
 
-        /** What a car goes along, with the direction it goes in; while it stands that is the one before. */
+        /** States with directions; a standing car keeps its previous direction. */
         SampledPath statesOf(const Trajectory &trajectory)
         {
             SampledPath states;
@@ -112,28 +112,29 @@ namespace parking
     SvgMap driveMap(const Scenario &scenario, const SampledPath &path, const Trajectory &planned,
                     const Trajectory &driven)
     {
-        struct Way
+        struct Track
         {
             SampledPath states;
-            const char *name;           // of what the car is drawn along
-            const char *beside, *dash;  // of a line beside that
+            const char *name;           // of the path along which the car is drawn
+            const char *beside, *dash;  // of an additional path
         };
-        std::vector<Way> ways{{path, "path", "planned path", "1 4"},
-                              {statesOf(planned), "trajectory", "planned trajectory", "5 3"},
-                              {statesOf(driven), "drive", "", ""}};
-        ways.erase(std::remove_if(ways.begin(), ways.end(), [](const Way &way) { return way.states.size() < 2; }),
-                   ways.end());
+        std::vector<Track> tracks{{path, "path", "planned path", "1 4"},
+                                  {statesOf(planned), "trajectory", "planned trajectory", "5 3"},
+                                  {statesOf(driven), "drive", "", ""}};
+        tracks.erase(
+            std::remove_if(tracks.begin(), tracks.end(), [](const Track &track) { return track.states.size() < 2; }),
+            tracks.end());
         SampledPath seen;
-        for (const Way &way : ways)
-            seen.insert(seen.end(), way.states.begin(), way.states.end());
+        for (const Track &track : tracks)
+            seen.insert(seen.end(), track.states.begin(), track.states.end());
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
-        if (ways.empty())
+        if (tracks.empty())
             return map;
-        drawPath(map, ways.back().states, scenario.vehicle, ways.back().name);
-        ways.pop_back();
-        for (const Way &way : ways)
-            drawTrack(map, posesOf(way.states), svg_colour::PLANNED, way.beside, way.dash);
+        drawPath(map, tracks.back().states, scenario.vehicle, tracks.back().name);
+        tracks.pop_back();
+        for (const Track &track : tracks)
+            drawTrack(map, posesOf(track.states), svg_colour::PLANNED, track.beside, track.dash);
         return map;
     }
 

@@ -23,7 +23,7 @@ namespace parking
         constexpr double SHORTEST_PIECE = 1e-7;    // metres; anything shorter is rounding of a curve's formula
         constexpr double PROPAGATION_STEP = 0.05;  // seconds, of planners that use the space
 
-        constexpr unsigned int MOST_STEPS = 20;  // for which they hold a control
+        constexpr unsigned int MAX_STEPS = 20;  // for which a control is held
 
         using Pair = ob::RealVectorStateSpace::StateType;
         using Controls = oc::RealVectorControlSpace::ControlType;
@@ -77,10 +77,12 @@ namespace parking
     Path pathOf(const ompl::geometric::PathGeometric &path)
     {
         if (path.getStateCount() < 2)
-            throw Error("an OMPL path of " + std::to_string(path.getStateCount()) + " states leads nowhere");
+            throw Error("an OMPL path of " + std::to_string(path.getStateCount()) +
+                        " states has no length; at least 2 are required");
         const CurveSpace space(*path.getSpaceInformation()->getStateSpace());
         if (space.kind() == SpaceKind::SE2)
-            throw Error("an OMPL path in a plain SE2 space has straight lines between its poses; no car drives those");
+            throw Error(
+                "an OMPL path in a plain SE2 space has straight lines between its poses, which no car can drive");
         Path arcs;
         arcs.start = poseOf(path.getState(0));
         ReedsSheppCurve curve;
@@ -112,7 +114,7 @@ namespace parking
         si->setStatePropagator(std::make_shared<BicyclePropagator>(si, vehicle));
         si->setStateValidityChecker([](const ob::State *) { return true; });
         si->setPropagationStepSize(PROPAGATION_STEP);
-        si->setMinMaxControlDuration(1, MOST_STEPS);
+        si->setMinMaxControlDuration(1, MAX_STEPS);
         si->setup();
         return si;
     }
@@ -121,7 +123,8 @@ namespace parking
                                                  const oc::SpaceInformationPtr &si)
     {
         if (motion.knots.size() < 2)
-            throw Error("a motion of " + std::to_string(motion.knots.size()) + " knots leads nowhere");
+            throw Error("a motion of " + std::to_string(motion.knots.size()) +
+                        " knots has no duration; at least 2 are required");
         auto path = std::make_shared<oc::PathControl>(si);
         ob::State *state = si->allocState();
         oc::Control *control = si->allocControl();

@@ -13,30 +13,30 @@
 
 namespace parking
 {
-    /** \brief The arcs that OMPL's interpolation follows along \e path, whichever planner found it.
+    /** \brief The arcs that OMPL's interpolation follows along \e path, for any planner.
 
-        With TrajectoryOptimizer or quickestTrajectory() behind it, and controlPath() behind that, the solution of any
-        geometric planner becomes one that can be driven.
+        With TrajectoryOptimizer or quickestTrajectory(), and then controlPath(), the solution of any geometric planner
+        becomes drivable.
 
-        Throws parking::Error for a path of fewer than two states, and for a space that is neither a Reeds-Shepp nor a
-        Dubins space: straight lines between poses are nothing that a car drives. */
+        Throws parking::Error for a path of fewer than two states, and for a space other than Reeds-Shepp or Dubins. A
+        car cannot drive straight lines between arbitrary poses. */
     Path pathOf(const ompl::geometric::PathGeometric &path);
 
-    /** \brief A car as OMPL's control planners know it.
+    /** \brief A car for OMPL's control planners.
 
-        States are those of an SE2 space (pose of the rear axle's midpoint) and of two numbers, speed (m/s, negative in
-        reverse) and steering angle (radians), within the limits of \e vehicle; controls are acceleration (m/s^2) and
-        steering rate (rad/s), likewise. Propagation integrates the bicycle model. The validity checker is the caller's,
-        and everything is valid until there is one.
+        A state consists of an SE2 state (pose of the rear axle's midpoint) and two numbers within the limits of \e
+        vehicle: speed (m/s, negative in reverse) and steering angle (radians). Controls are acceleration (m/s^2) and
+        steering rate (rad/s), within the limits, too. Propagation integrates the bicycle model. The caller sets the
+        validity checker; without one all states are valid.
 
         \param bounds of the rear axle's positions, metres */
     ompl::control::SpaceInformationPtr carInformation(const Vehicle &vehicle, const Box &bounds);
 
-    /** \brief \e motion as a path of \e si, which carInformation() has made: a state at every knot, and between two of
-        them the one control that leads from each to the next, for the seconds between them.
+    /** \brief Converts \e motion to a path of \e si, which carInformation() has created. It has a state at every knot,
+        and one control between two knots with their time difference.
 
-        Speed and steering angle of a TimedMotion are linear between knots, so that nothing is lost.
-        Throws parking::Error for a motion without two knots. */
+        Speed and steering angle of a TimedMotion are linear between knots, so that the conversion is exact.
+        Throws parking::Error for a motion with fewer than two knots. */
     std::shared_ptr<ompl::control::PathControl> controlPath(const TimedMotion &motion, const Vehicle &vehicle,
                                                             const ompl::control::SpaceInformationPtr &si);
 }  // namespace parking

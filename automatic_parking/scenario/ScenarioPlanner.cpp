@@ -167,7 +167,7 @@ namespace parking
         if (!plan.hasPath())
             return HUGE_VAL;
         if (!plan.isDisc)
-            return leastClearance(footprint_, plan.path);
+            return minClearance(footprint_, plan.path);
         double least = HUGE_VAL;
         for (const PathState &state : plan.path.sample(SAMPLING))
             least = std::min(least, circle().clearance(state.pose.x, state.pose.y));
@@ -178,7 +178,7 @@ namespace parking
                                                    const std::function<bool()> &interrupted) const
     {
         if (!plan.hasPath() || plan.path.pieces.empty())
-            throw Error("there is no path that a trajectory could be made from");
+            throw Error("there is no path, which a trajectory requires");
         QuickestTrajectoryOptions own = options;
         own.alternatives = options.alternatives && plan.outcome == search::PlanOutcome::Solved && !plan.isDisc;
         return quickestTrajectory(footprint_, scenario_.bounds, plan.path, own, interrupted);

@@ -30,7 +30,7 @@ namespace parking
     }  // namespace
 
     SearchTrace traceSearch(const ScenarioPlanner &planner, const PlannerParameters &parameters,
-                            const PlanLimits &limits, std::size_t mostNodes)
+                            const PlanLimits &limits, std::size_t maxNodes)
     {
         checkParameters(parameters);
         const search::PlanRequest request = planner.request(parameters);
@@ -66,7 +66,7 @@ namespace parking
                 trace.steps.push_back(step);
             else
                 trace.steps.back() = step;
-            return start.nodes().size() + goal.nodes().size() >= mostNodes;
+            return start.nodes().size() + goal.nodes().size() >= maxNodes;
         };
         const Stopwatch watch;
         path.solve([&]

@@ -367,7 +367,7 @@ namespace parking
             {
                 options.trajectory.margin =
                     std::max(options.trajectory.margin,
-                             std::min(ERROR_OF_TRACKING, 0.5 * leastClearance(problem.footprint(), run.path->path)));
+                             std::min(ERROR_OF_TRACKING, 0.5 * minClearance(problem.footprint(), run.path->path)));
                 options.trajectory.sharpest = false;
             }
             result.trajectory =

@@ -102,7 +102,7 @@ namespace
             return "long";
         if (car.width + 2.0 * leastGap > slot.width)
             return "wide";
-        const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
+        const ReverseParkingResult result = planSlotEntry(planner, car, slot);
         return result.fits() ? std::to_string(result.path.stretches().size()) : "-";
     }
 

@@ -57,7 +57,7 @@ namespace
         take("nearness", trajectory.weights.nearness);
         take("brake-reserve", parameters.drive.tracking.brakeReserve);
         take("kept", parameters.keptClearance);
-        take("least", parameters.leastClearance);
+        take("least", parameters.minClearance);
         take("clearance-share", parameters.clearanceShare);
         parameters.validate();
         return parameters;

@@ -7,10 +7,10 @@ namespace parking
 {
     namespace
     {
-        constexpr double LEAST_ACCELERATION = 0.05;  // m/s^2 that say something
-        constexpr double SHORTEST_LAG = 1e-3;        // seconds; below it there is none
-        constexpr double LONGEST_LAG = 0.5;          // seconds
-        constexpr double GAIN = 0.2;  // share of what one period says that is believed; the first say more
+        constexpr double MIN_ACCELERATION = 0.05;  // m/s^2, minimum for learning
+        constexpr double SHORTEST_LAG = 1e-3;      // seconds; shorter lags count as none
+        constexpr double LONGEST_LAG = 0.5;        // seconds
+        constexpr double GAIN = 0.2;  // share of a period's estimate that is applied; higher for the first periods
     }                                 // namespace
 
     double unfollowed(double lag, double duration)
@@ -33,7 +33,7 @@ namespace parking
     {
         const double sign = change + trailingBefore > 0.0 ? 1.0 : -1.0;
         const double c = sign * change, b = sign * trailingBefore;
-        // With both of one sign what is seen rises with the lag. A value that overtook its command says nothing.
+        // If both have the same sign, the trailing grows with the lag. A value that overtook its command is ignored.
         if (c + b < least || std::min(c, b) < -0.1 * least)
             return;
         double low = SHORTEST_LAG, high = LONGEST_LAG;
@@ -54,7 +54,7 @@ namespace parking
     {
         const double mean = (speed - speedBefore) / duration;
         const double trailing = command - mean;
-        estimator_.learn(duration, command - commandBefore_, trailingBefore_, trailing, LEAST_ACCELERATION);
+        estimator_.learn(duration, command - commandBefore_, trailingBefore_, trailing, MIN_ACCELERATION);
         commandBefore_ = command;
         trailingBefore_ = trailing;
         const double lag = estimator_.lag();

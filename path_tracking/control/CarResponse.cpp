@@ -11,12 +11,12 @@ namespace parking
 {
     namespace
     {
-        constexpr double LEAST_BRAKE = 0.3;    // m/s^2 of commanded deceleration that say something about the brake
-        constexpr double STEADY = 0.15;        // m/s^2 by which it may differ from the period before
-        constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less is a broken car
-        constexpr double BRAKE_GAIN = 0.4;     // share of what a period says that is believed
-        constexpr double LEAST_TURN = 0.015;   // radians that wheels should have turned by
-        constexpr double HARDLY = 0.05;        // share of it that counts as standing still
+        constexpr double MIN_BRAKE = 0.3;      // m/s^2, minimum commanded deceleration for learning the brake
+        constexpr double STEADY = 0.15;        // m/s^2, maximum change since the previous period
+        constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less indicates a defect
+        constexpr double BRAKE_GAIN = 0.4;     // share of a period's estimate that is applied
+        constexpr double MIN_TURN = 0.015;     // radians, minimum expected turn of the wheels
+        constexpr double HARDLY = 0.05;        // share of the expected turn up to which the wheels stand still
     }                                          // namespace
 
     void ResponseParameters::validate() const
@@ -72,7 +72,7 @@ namespace parking
         watchWheels(measurement);
         if (stuck_ == 0)
             steeringLag_.learn(period_, done.steering - last.steering, last.steering - before.steering,
-                               done.steering - measurement.steering, LagEstimator::LEAST_ANGLE);
+                               done.steering - measurement.steering, LagEstimator::MIN_ANGLE);
         learnBrake(measurement);
         if (done.hold)
             driveLag_.hold();
@@ -91,8 +91,8 @@ namespace parking
         const Command &done = delay_.arrived(), &last = delay_.arrived(1);
         const double before = estimator_.measuredSpeed(), sign = before < 0.0 ? -1.0 : 1.0;
         const double told = -sign * done.acceleration, slower = sign * (before - measurement.speed) / period_;
-        // A car that comes to rest within the period slows down for a part of it only.
-        if (told < LEAST_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
+        // A car that stops within the period brakes for a part of it only.
+        if (told < MIN_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
             std::abs(before) < 1.5 * told * period_)
             return;
         brakeScale_ += BRAKE_GAIN * (std::clamp(slower / told, WEAKEST_BRAKE, 1.0) - brakeScale_);
@@ -100,12 +100,12 @@ namespace parking
 
     void CarResponse::watchWheels(const Measurement &measurement)
     {
-        // Without a delay that is sure it may be any, and the lag is not known either: wheels that are as slow as can
-        // be thought of move more than hardly.
+        // While the delay is uncertain, any delay is possible and the lag is unknown, too. Even wheels with the largest
+        // expected lag move by more than this.
         const bool isSure = delay_.isSure();
         const double lag = isSure ? steeringLag_.lag() : 0.0;
         std::size_t delay = isSure ? delay_.periods() : 0;
-        const std::size_t last = isSure ? delay : CommandDelay::MOST;
+        const std::size_t last = isSure ? delay : CommandDelay::MAX_PERIODS;
         double least = expectedTurn(delay, lag), most = least;
         while (++delay <= last)
         {
@@ -113,7 +113,7 @@ namespace parking
             least = std::min(least, turn);
             most = std::max(most, turn);
         }
-        if (least < LEAST_TURN && most > -LEAST_TURN)
+        if (least < MIN_TURN && most > -MIN_TURN)
             return;
         const double expected = std::min(std::abs(least), std::abs(most));
         const double turned = std::abs(measurement.steering - estimator_.measuredSteering());
@@ -136,7 +136,7 @@ namespace parking
         result.commandDelay = delay_.time();
         result.delayIsSure = true;
         result.driveLag = driveLag_.lag();
-        // Wheels that stick have begun to look slow.
+        // Sticking wheels have raised the estimated lag.
         if (!wheelsStick())
             result.steeringLag = steeringLag_.lag();
         return result;
@@ -153,15 +153,15 @@ namespace parking
         return state;
     }
 
-    CarState CarResponse::ahead(Path *way) const
+    CarState CarResponse::ahead(Path *path) const
     {
         CarState state = now();
         for (std::size_t i = 0; i < delay_.periods(); ++i)
-            state = after(state, delay_.underWay(i), brakeScale_, way);
+            state = after(state, delay_.underWay(i), brakeScale_, path);
         return state;
     }
 
-    CarState CarResponse::after(const CarState &state, const Command &command, double brakeScale, Path *way) const
+    CarState CarResponse::after(const CarState &state, const Command &command, double brakeScale, Path *path) const
     {
         CarState next = state;
         const double offset = estimator_.steeringOffset();
@@ -189,8 +189,8 @@ namespace parking
         const PathPiece piece(vehicle_.curvature(0.5 * (state.wheels + next.wheels)), length);
         next.pose = advance(state.pose, piece);
         next.driven += length;
-        if (way != nullptr)
-            way->append(piece);
+        if (path != nullptr)
+            path->append(piece);
         return next;
     }
 

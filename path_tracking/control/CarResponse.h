@@ -11,108 +11,111 @@
 
 namespace parking
 {
-    /** \brief What is known beforehand of how a car follows its commands; the rest is learnt while it drives. */
+    /** \brief Initial knowledge of the response of a car to its commands; the rest is learnt while it drives. */
     struct ResponseParameters
     {
-        EstimatorParameters estimator;  ///< of the filter that tells where the car is
+        EstimatorParameters estimator;  ///< of the pose filter
         double steeringLag{0.0};        ///< seconds that the wheels lag behind their command
         double driveLag{0.0};           ///< seconds that the acceleration lags behind its command
-        double commandDelay{0.0};       ///< seconds that a command takes to arrive
-        bool delayIsSure{false};        ///< has that been seen, so that it need not be learnt?
+        double commandDelay{0.0};       ///< seconds between sending a command and its arrival
+        bool delayIsSure{false};        ///< whether the delay is certain, so that it is not learnt
         double brakeScale{1.0};         ///< share of a commanded deceleration that the car reaches, in (0, 1]
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
     };
 
-    /** \brief What a car is doing, as far as it is known or foretold. */
+    /** \brief State of the car, estimated or predicted. */
     struct CarState
     {
         Pose pose;                 ///< of the rear axle's midpoint
         double speed{0.0};         ///< m/s over ground, negative in reverse
         double acceleration{0.0};  ///< m/s^2 over ground
-        double wheels{0.0};        ///< radians, where they really stand
-        double commanded{0.0};     ///< radians, the steering angle commanded before
-        double driven{0.0};        ///< metres since it was measured, signed
+        double wheels{0.0};        ///< radians, actual angle of the wheels
+        double commanded{0.0};     ///< radians, the previous steering command
+        double driven{0.0};        ///< metres since the last measurement, signed
     };
 
-    /** \brief How the car follows its commands: where it is, and what it will do.
+    /** \brief Model of a car's response to its commands: estimates its state and predicts its motion.
 
-        Learns from what is measured, a period at a time: the pose and the scale of the speed (PoseEstimator), how far
-        wheels and drive lag behind, how late commands arrive, how much less than told the car slows down, and whether
-        its wheels have stopped to follow at all. */
+        It learns once per period from measurements: the pose and the scale of the speed (PoseEstimator), the lags of
+        wheels and drive, the delay of commands and the loss of braking. It also detects wheels that
+        have stopped following. */
     class CarResponse
     {
     public:
         /** \param period seconds of control \param steering radians, commanded before the first command */
         CarResponse(const Vehicle &vehicle, const ResponseParameters &parameters, double period, double steering);
 
-        /** \brief Begins with \e measurement. */
+        /** \brief Initialises the state with \e measurement. */
         void start(const Measurement &measurement);
 
-        /** \brief Takes over what is measured at the end of a period. Without a pose the car is where speed and wheels
-         * say. */
+        /** \brief Updates the state with the measurement at the end of a period. Without a pose, speed and wheels
+            predict it. */
         void take(const Measurement &measurement);
 
-        /** \brief Takes over a period in which speed or wheels were not measured: the car has done what it was told. */
+        /** \brief Updates the state after a period without measured speed or wheels, assuming that the car obeyed its
+            command. */
         void reckon();
 
-        /** \brief Sends off the command of the period that begins. Speeds and angles are those that are measured. */
+        /** \brief Records the command of the period that begins. Speeds and angles are as measured. */
         void give(const Command &command);
 
-        /** \brief Where the car is. */
+        /** \brief The estimator of the pose. */
         const PoseEstimator &estimator() const
         {
             return estimator_;
         }
-        /** \brief Seconds, time constant of the wheels behind their command. */
+        /** \brief Time constant in seconds of the wheels behind their command. */
         double steeringLag() const
         {
             return steeringLag_.lag();
         }
-        /** \brief Seconds, time constant of the acceleration behind its command. */
+        /** \brief Time constant in seconds of the acceleration behind its command. */
         double driveLag() const
         {
             return driveLag_.lag();
         }
 
-        /** \brief Seconds that commands take to arrive. */
+        /** \brief Seconds between sending a command and its arrival. */
         double delay() const
         {
             return delay_.time();
         }
 
-        /** \brief Share of the commanded deceleration that the car reaches, as far as has been seen. */
+        /** \brief Learnt share of a commanded deceleration that the car reaches. */
         double brakeScale() const
         {
             return brakeScale_;
         }
 
-        /** \brief What is known now: what another CarResponse of this car may begin with. */
+        /** \brief The learnt parameters, with which another CarResponse of this car may start. */
         ResponseParameters learnt() const;
 
-        /** \brief Do the wheels stay where they are whatever they are told?
+        /** \brief Whether the wheels stay where they are, independent of commands.
 
-            Until the delay of commands is sure it is only said once wheels should have moved with any delay. */
+            While the delay of commands is uncertain, the result is true only if the wheels should have moved with any
+            delay. */
         bool wheelsStick() const
         {
             return stuck_ >= STUCK_FOR;
         }
 
-        /** \brief What the car is doing now. */
+        /** \brief The current state of the car. */
         CarState now() const;
 
-        /** \brief What it will do when the command of this period arrives: all that are under way carried out.
+        /** \brief The predicted state when the command of this period arrives, after all pending commands.
 
-            \param way when given, what it drives until then is added to it */
-        CarState ahead(Path *way = nullptr) const;
+            \param path if given, receives the path driven until then */
+        CarState ahead(Path *path = nullptr) const;
 
-        /** \brief What \e command makes of \e state in \e duration seconds, the piece of way added to \e way.
+        /** \brief The state after \e command is applied to \e state for \e duration seconds.
 
-            \param brakeScale share of a commanded deceleration that the car reaches */
-        CarState after(const CarState &state, const Command &command, double brakeScale, Path *way = nullptr) const;
+            \param brakeScale share of a commanded deceleration that the car reaches
+            \param path if given, receives the piece of path */
+        CarState after(const CarState &state, const Command &command, double brakeScale, Path *path = nullptr) const;
 
-        /** \brief The acceleration to command for one over ground, which may be beyond the car's limit. */
+        /** \brief The command for a required acceleration over ground. It may exceed the car's limit. */
         double accelerationFor(double wanted, double speed) const;
 
     private:
@@ -120,11 +123,11 @@ namespace parking
 
         void learnBrake(const Measurement &measurement);
         void watchWheels(const Measurement &measurement);
-        /** Radians by which wheels turn in the last period, by such a delay (periods) and lag (seconds). */
+        /** Predicted turn of the wheels in the last period in radians, for a delay in periods and a lag in seconds. */
         double expectedTurn(std::size_t delay, double lag) const;
 
         Vehicle vehicle_;
-        ResponseParameters known_;  // beforehand
+        ResponseParameters known_;  // initial
         double period_;
         PoseEstimator estimator_;
         LagEstimator steeringLag_;

@@ -7,12 +7,12 @@ namespace parking
 {
     namespace
     {
-        constexpr double KEPT = 0.8;           // share of an old error that still counts after a period
-        constexpr double ANGLE = 0.005;        // radians that a foretelling may be off
-        constexpr double ACCELERATION = 0.15;  // m/s^2, likewise
-        constexpr double WRONG = 9.0;          // squared, what counts at most: lags are not known at first
-        constexpr double RIGHT = 1.0;          // likewise, of a number of periods that may replace another
-        constexpr double BETTER = 0.25;        // share of the error of another number of periods
+        constexpr double KEPT = 0.8;           // decay of the error per period
+        constexpr double ANGLE = 0.005;        // radians, tolerance of a prediction
+        constexpr double ACCELERATION = 0.15;  // m/s^2, tolerance of a prediction
+        constexpr double WRONG = 9.0;          // maximum squared error: lags are unknown at first
+        constexpr double RIGHT = 1.0;          // maximum squared error of a delay that may replace another
+        constexpr double BETTER = 0.25;        // share of the error of another delay
 
         double squared(double value)
         {
@@ -22,9 +22,9 @@ namespace parking
 
     CommandDelay::CommandDelay(double period, double steering, std::size_t periods, bool sure)
       : period_(period),
-        periods_(std::min(periods, MOST)),
+        periods_(std::min(periods, MAX_PERIODS)),
         sure_(sure ? ENOUGH : 0),
-        given_(MOST + 3, Command{0.0, steering, true})
+        given_(MAX_PERIODS + 3, Command{0.0, steering, true})
     {
     }
 
@@ -44,7 +44,7 @@ namespace parking
         {
             Guess &guess = guesses_[i];
             const Command &now = given(i), &last = given(i + 1);
-            // First what is foretold, then what is learnt.
+            // First predict, then learn.
             const double angle =
                 LagStep(guess.wheels.lag(), period_).after(now.steering, last.steering, before.steering);
             double error = squared((after.steering - angle) / ANGLE);
@@ -56,7 +56,7 @@ namespace parking
             if (!now.hold || before.speed == 0.0)
                 error += squared((gained - asked - late * (guess.drive.acceleration() - asked)) / ACCELERATION);
             guess.wheels.learn(period_, now.steering - last.steering, last.steering - before.steering,
-                               now.steering - after.steering, LagEstimator::LEAST_ANGLE);
+                               now.steering - after.steering, LagEstimator::MIN_ANGLE);
             if (now.hold)
                 guess.drive.hold();
             else
@@ -69,7 +69,7 @@ namespace parking
                 best = i;
             }
         }
-        // Where all foretell alike, as at standstill, there is nothing to learn.
+        // If all predictions are equal, as at standstill, nothing is learnt.
         if (most < 4.0 || least > BETTER * most)
             return;
         if (best != periods_ && least < RIGHT && least < BETTER * guesses_[periods_].error)

@@ -9,69 +9,71 @@
 
 namespace parking
 {
-    /** \brief Learns how many periods a command takes until it reaches the car, and keeps those that are under way.
+    /** \brief Estimates the delay of commands in periods, and stores the commands on their way.
 
-        A command that is late is no lag: for a while nothing happens at all, and then everything. For every number of
-        periods in question it is foretold how the wheels turn and how the speed changes over a period, each with a lag
-        of its own that is learnt; the number that foretells best is taken. Once it has done so several times it is
-        kept: the delay of a car does not change while it drives, but wheels that stick would look as if it had. */
+        A delay differs from a lag: the car first does not respond at all, then fully. For every possible delay, the
+        class predicts the turn of the wheels and the change of speed over a period, each with its own learnt lag. The
+        delay with the smallest prediction error is used.
+
+        Once the same delay was best several times, it is fixed. The delay of a car does not change while it drives, but
+        wheels that stick would look like a longer one. */
     class CommandDelay
     {
     public:
-        static constexpr std::size_t MOST = 6;  ///< periods that are thought of
+        static constexpr std::size_t MAX_PERIODS = 6;  ///< maximum delay, in periods
 
         /** \param period seconds of control
             \param steering radians, commanded before the first command
-            \param periods of delay, known beforehand
-            \param sure is that number certain? Then nothing is learnt */
+            \param periods initial delay, in periods
+            \param sure whether that delay is certain and need not be learnt */
         CommandDelay(double period, double steering, std::size_t periods = 0, bool sure = false);
 
-        /** \brief A command is sent off. */
+        /** \brief Records a command when it is sent. */
         void give(const Command &command);
 
-        /** \brief Learns from the period that \e before and \e after were measured around. */
+        /** \brief Updates the estimate from the period between two measurements. */
         void learn(const Measurement &before, const Measurement &after);
 
-        /** \brief Periods that a command takes to arrive. */
+        /** \brief Delay of a command in periods. */
         std::size_t periods() const
         {
             return periods_;
         }
 
-        /** \brief Seconds. */
+        /** \brief Delay of a command in seconds. */
         double time() const
         {
             return static_cast<double>(periods_) * period_;
         }
 
-        /** \brief Has the delay been seen often enough to be sure? */
+        /** \brief Whether the delay was confirmed often enough. */
         bool isSure() const
         {
             return sure_ >= ENOUGH;
         }
 
-        /** \brief What was sent off \e ago periods before the newest command, at most MOST + 2. */
+        /** \brief The command sent \e ago periods before the newest one, at most MAX_PERIODS + 2. */
         const Command &given(std::size_t ago) const
         {
             return given_[given_.size() - 1 - ago];
         }
 
-        /** \brief What the car did in the last period, \e ago periods before it. */
+        /** \brief The command that the car executed \e ago periods before the last one. */
         const Command &arrived(std::size_t ago = 0) const
         {
             return given(periods_ + ago);
         }
 
-        /** \brief What it will be told in \e index periods: 0 is what arrives next; below periods(). */
+        /** \brief The command that arrives in \e index periods, below periods(); 0 arrives next. */
         const Command &underWay(std::size_t index) const
         {
             return given_[given_.size() - periods_ + index];
         }
 
     private:
-        static constexpr int ENOUGH = 5;  // periods that were foretold
+        static constexpr int ENOUGH = 5;  // correct predictions
 
-        /** One number of periods, and how well it foretells. */
+        /** A possible delay with its prediction error. */
         struct Guess
         {
             LagEstimator wheels;
@@ -83,6 +85,6 @@ namespace parking
         std::size_t periods_;
         int sure_{0};
         std::deque<Command> given_;  // the newest last
-        std::array<Guess, MOST + 1> guesses_;
+        std::array<Guess, MAX_PERIODS + 1> guesses_;
     };
 }  // namespace parking

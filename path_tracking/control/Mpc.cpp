@@ -21,17 +21,17 @@ namespace parking
     namespace
     {
         constexpr std::size_t LONGEST_HORIZON = 200;
-        constexpr double MOST_WEIGHT = 1e9;
+        constexpr double MAX_WEIGHT = 1e9;
         constexpr double FUNCTION_TOLERANCE = 1e-5;  // relative gain at which Ceres stops
-        constexpr double SETTLED = 1e-4;             // relative gain of a step after which another is not worth it
-        constexpr int MOST_REJECTIONS = 8;           // of steps by the trust region, per working set
+        constexpr double SETTLED = 1e-4;             // relative gain of a step below which the solver ends
+        constexpr int MAX_REJECTIONS = 8;            // rejections of steps by the trust region, per working set
         constexpr double FIRST_RADIUS = 1e4;
         constexpr double LARGEST_COST = 1e30;
-        /** Bounds of the trust region between steps, and how it grows from one to the next. It shrinks where a step was
-            cut to a limit, which the next working set holds: without growing again it crept to a stop elsewhere. */
-        constexpr double LEAST_RADIUS = 1.0, LARGEST_RADIUS = 1e8, GROWTH = 30.0;
+        /** Bounds of the trust region between steps, and its growth per step. It shrinks when a step is clamped to a
+            limit, which the next working set contains. Without growth it would remain small elsewhere. */
+        constexpr double MIN_RADIUS = 1.0, LARGEST_RADIUS = 1e8, GROWTH = 30.0;
 
-        /** A cost with what it was last asked for, so that nobody asks twice. */
+        /** A cost function with its last result cached. */
         struct Evaluation
         {
             Eigen::VectorXd unknowns;
@@ -39,7 +39,7 @@ namespace parking
             MpcCost::Jacobian jacobian;
         };
 
-        /** Cost as a function of a step in the directions that a working set leaves free, for Ceres. */
+        /** Cost as a function of a step in the free directions of a working set, for Ceres. */
         class FreeCost final : public ceres::CostFunction
         {
         public:
@@ -55,7 +55,7 @@ namespace parking
                 mutable_parameter_block_sizes()->push_back(static_cast<int>(active.freedom()));
             }
 
-            /** The unknowns after \e step, cut to their limits. */
+            /** The unknowns after \e step, clamped to their limits. */
             Eigen::VectorXd unknowns(const double *step) const
             {
                 Eigen::VectorXd result = active_.expand(base_, step);
@@ -92,7 +92,7 @@ namespace parking
             mutable Eigen::VectorXd values_;
         };
 
-        /** Ends the minimiser after its first step that lowered the cost: the working set may change there. */
+        /** Ends the minimiser after its first improving step: the working set may change there. */
         class StopAfterStep final : public ceres::IterationCallback
         {
         public:
@@ -123,10 +123,10 @@ namespace parking
         require.that(horizon >= 1 && horizon <= LONGEST_HORIZON, "horizon", static_cast<double>(horizon),
                      "a number of steps from 1 to 200");
         require.that(std::isfinite(step) && step > 0.0 && step <= 1.0, "step", step, "above 0 and up to 1 second");
-        // Far beyond what makes sense, and far from what squares and sums overflow at.
+        // Far above sensible values, and far below those at which squares and sums overflow.
         const auto weight = [&require](const char *field, double value)
         {
-            require.that(value >= 0.0 && value <= MOST_WEIGHT, field, value, "a number from 0 to 1e9");
+            require.that(value >= 0.0 && value <= MAX_WEIGHT, field, value, "a number from 0 to 1e9");
         };
         weight("accelerationWeight", accelerationWeight);
         weight("steeringWeight", steeringWeight);
@@ -155,11 +155,11 @@ namespace parking
             limits_[STEERING].high = vehicle.maxSteeringAngle;
             limits_[STEERING].change = vehicle.maxSteeringRate * parameters.step;
             options_.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-            options_.max_num_iterations = MOST_REJECTIONS;
+            options_.max_num_iterations = MAX_REJECTIONS;
             options_.function_tolerance = FUNCTION_TOLERANCE;
             options_.parameter_tolerance = 1e-6;
             options_.gradient_tolerance = 1e-6;
-            options_.max_num_consecutive_invalid_steps = 2 * MOST_REJECTIONS;  // more would be printed
+            options_.max_num_consecutive_invalid_steps = 2 * MAX_REJECTIONS;  // more would be printed
             options_.num_threads = 1;
             options_.logging_type = ceres::SILENT;
             options_.minimizer_progress_to_stdout = false;
@@ -239,7 +239,7 @@ namespace parking
             extract(problem, solution);
         }
 
-        /** One step that lowers the cost in the directions that the working set leaves, if there is one. */
+        /** One improving step in the free directions of the working set, if there is one. */
         void improve(const WorkingSet &active, ceres::Solver::Summary &summary)
         {
             FreeCost cost(cost_, limits_, active, unknowns_, last_);
@@ -253,10 +253,10 @@ namespace parking
             unknowns_ = cost.unknowns(step.data());
             if (!summary.iterations.empty())
                 options_.initial_trust_region_radius =
-                    std::clamp(GROWTH * summary.iterations.back().trust_region_radius, LEAST_RADIUS, LARGEST_RADIUS);
+                    std::clamp(GROWTH * summary.iterations.back().trust_region_radius, MIN_RADIUS, LARGEST_RADIUS);
         }
 
-        /** First guess: the last answer, one step on, or the reference's own controls. */
+        /** Initial guess: the last solution shifted by one step, or the controls of the reference. */
         void prepare(const MpcProblem &problem)
         {
             const Eigen::Index n = unknowns_.size();

@@ -10,7 +10,7 @@
 
 namespace parking
 {
-    /** \brief What the controller may be tuned with. */
+    /** \brief Parameters of the model predictive controller. */
     struct MpcParameters
     {
         std::size_t horizon{20};  ///< steps
@@ -23,29 +23,29 @@ namespace parking
         double alongWeight{100.0};             ///< W3 along the reference's heading, per m^2
         double acrossWeight{100.0};            ///< W3 across it, per m^2
         double headingWeight{300.0};           ///< W4, per rad^2
-        double alignDistance{5.0};             ///< metres, d: nearer to the goal than this W4 holds (m = 1)
-        /** Weight of the heading farther away, per rad^2 (the paper has none, 0). */
+        double alignDistance{5.0};             ///< metres, d: the goal distance within which W4 applies (m = 1)
+        /** Weight of the heading beyond alignDistance, per rad^2 (0 in the paper). */
         double farHeadingWeight{300.0};
-        /** Does W1 weigh the steering angle against the one that the path has there, and W2 its changes likewise? The
-            paper's cost (false) pulls the wheels straight, which on an arc pulls the car off the path. */
+        /** Whether W1 and W2 weigh the steering angle relative to that of the path. The paper's cost (false) steers
+            towards straight wheels, which pulls the car off the path on an arc. */
         bool relativeSteering{true};
-        /** The same for the acceleration: W1 and W2 weigh it against that of the timed path, which is not smooth. */
+        /** Whether W1 and W2 weigh the acceleration relative to that of the timed path, which is not smooth. */
         bool relativeAcceleration{true};
 
-        int maxIterations{6};  ///< of the solver per step
+        int maxIterations{6};  ///< of the solver, per step
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
     };
 
-    /** \brief Acceleration in m/s^2 (of the signed speed), steering angle in radians (at the end of the step). */
+    /** \brief Control of one step: acceleration (of the signed speed) and steering angle (at the end of the step). */
     struct MpcControl
     {
         double acceleration{0.0};  ///< m/s^2, of the signed speed
         double steering{0.0};      ///< radians, to the left positive
     };
 
-    /** \brief Where the car should be at the end of a step, and what the timed path has there. */
+    /** \brief Reference state at the end of a step. */
     struct MpcReference
     {
         Pose pose;             ///< at the end of the step
@@ -53,51 +53,52 @@ namespace parking
         double steering{0.0};  ///< radians, to be commanded
     };
 
-    /** \brief One step's question. */
+    /** \brief Input of one control step. */
     struct MpcProblem
     {
         Pose pose;                            ///< of the car now
         double speed{0.0};                    ///< m/s, negative in reverse
         double acceleration{0.0};             ///< m/s^2, of the moment (matters with a driveLag only)
         double driveLag{0.0};                 ///< seconds, time constant of the drive behind its command
-        MpcControl last;                      ///< applied in the last step
-        double wheels{0.0};                   ///< radians, angle of the wheels now
+        MpcControl last;                      ///< control of the last step
+        double wheels{0.0};                   ///< radians, current angle of the wheels
         double steeringLag{0.0};              ///< seconds, time constant of the wheels behind their command
-        double steeringNow{0.0};              ///< radians, of the path at this moment
-        double speedNow{0.0};                 ///< m/s, of the path at this moment, negative in reverse
-        double accelerationNow{0.0};          ///< m/s^2, of the path, what leads to this moment
-        int direction{1};                     ///< of the leg: the car may not move the other way
-        bool eitherWay{false};                ///< it may: the paper's cost says nothing of directions
-        bool align{false};                    ///< m of the paper: is the goal nearer than alignDistance?
+        double steeringNow{0.0};              ///< radians, of the path at the current time
+        double speedNow{0.0};                 ///< m/s, of the path at the current time, negative in reverse
+        double accelerationNow{0.0};          ///< m/s^2, of the path just before the current time
+        int direction{1};                     ///< of the leg; the car must not move in the opposite direction
+        bool eitherWay{false};                ///< whether both directions are allowed, as in the paper's cost
+        bool align{false};                    ///< m of the paper: whether the goal is nearer than alignDistance
         std::vector<MpcReference> reference;  ///< one per step of the horizon
     };
 
-    /** \brief One step's answer. */
+    /** \brief Result of one control step. */
     struct MpcSolution
     {
-        bool usable{false};                ///< false: controls is empty and message says why
+        bool usable{false};                ///< if false, controls is empty and message gives the reason
         std::vector<MpcControl> controls;  ///< one per step of the horizon, within all limits
         int iterations{0};                 ///< steps of the solver, at most MpcParameters::maxIterations
-        double cost{0.0};                  ///< at the begin of the last step, up to a constant; without unit
+        double cost{0.0};                  ///< before the last solver step, up to a constant; without unit
         double solveTime{0.0};             ///< seconds of wall clock
-        std::string message;               ///< why it is not usable; otherwise empty
+        std::string message;               ///< why the solution is not usable; otherwise empty
     };
 
     /** \brief Model predictive control of the kinematic bicycle model (paper, "MPC Control Algorithm").
 
-        States z = [x, y, v, psi], controls u = [a, delta]; single shooting over the horizon with bicycleStep(). The
-        cost is the paper's,
+        The states are z = [x, y, v, psi], the controls u = [a, delta]. Single shooting predicts the horizon with
+        bicycleStep(). The cost is the paper's,
 
             sum over k of  W1 |u_k|^2 + W2 |u_k - u_(k-1)|^2 + W3 |D_k - Z_k|^2 + m W4 (psi_k - psi_d,k)^2,
 
-        with these choices where the paper leaves them open: psi_d,k is the heading of the reference at that step, which
-        is the heading in the slot at the end of the path and stays right on a final arc; the difference of the first
-        step is to the control applied last. Bounds on a and delta are box constraints of the solver. The speed limit,
-        the direction of travel and the steering rate couple steps and enter as penalties; the answer is then cut to
-        obey them exactly.
+        with two choices that the paper leaves open. psi_d,k is the heading of the reference at that step: the heading
+        in the slot at the end of the path, and correct on a final arc. The first difference is to the control applied
+        last.
 
-        Ceres solves it (Levenberg-Marquardt, dense normal equations, one thread, silent), starting from the last answer
-        shifted by one step. An instance is not for use by several threads at once. */
+        Bounds on a and delta are box constraints of the solver. The speed limit, the direction of travel and the
+        steering rate couple steps and enter as penalties. The solution is then clamped to satisfy them exactly.
+
+        Ceres solves the problem (Levenberg-Marquardt, dense normal equations, one thread), starting from the last
+        solution shifted by one step. An instance must not be used by several threads at once. */
     class Mpc
     {
     public:
@@ -105,17 +106,17 @@ namespace parking
         Mpc(const Vehicle &vehicle, const MpcParameters &parameters);
         ~Mpc();
 
-        /** \brief Takes over the solver; what is moved from may only be assigned to or destroyed. */
+        /** \brief Moves the solver. A moved-from instance may only be assigned to or destroyed. */
         Mpc(Mpc &&) noexcept;
 
-        /** \brief As the constructor. */
+        /** \brief Moves the solver, see the move constructor. */
         Mpc &operator=(Mpc &&) noexcept;
 
-        /** \brief Forgets the last answer: the next problem starts from the reference's controls. */
+        /** \brief Discards the last solution. The next problem starts from the controls of the reference. */
         void reset();
 
-        /** \brief Solves one step. Never throws for numbers: a problem that is not finite or has another number of
-            reference points than the horizon gets an unusable answer. */
+        /** \brief Solves one step. It never throws for numbers: if a value is not finite, or the number of reference
+            points differs from the horizon, the solution is not usable. */
         MpcSolution solve(const MpcProblem &problem);
 
     private:

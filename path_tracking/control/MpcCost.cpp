@@ -22,9 +22,8 @@ namespace parking
             STATES
         };
 
-        /** Sensitivity of a lagging value after a step to the unknowns, from the one before it.
-
-            \param column of this step's command; the one before it stands two columns to the left */
+        /** Sensitivity of a lagging value after a step to the unknowns, from the previous one. \param column of the
+            command of this step; the previous command is two columns to the left */
         template <typename Row>
         void follow(const LagStep &lag, const Row &before, Eigen::Index column, Eigen::RowVectorXd &after)
         {
@@ -35,7 +34,7 @@ namespace parking
         }
 
         /** Keeps a quadratic form definite when its weights are zero; far below any sensible weight. */
-        constexpr double LEAST_WEIGHT = 1e-9;
+        constexpr double MIN_WEIGHT = 1e-9;
     }  // namespace
 
     MpcCost::MpcCost(const Vehicle &vehicle, const MpcParameters &parameters)
@@ -55,7 +54,7 @@ namespace parking
     MpcCost::ControlForm MpcCost::makeForm(double weight, double changeWeight) const
     {
         ControlForm form;
-        form.weight = std::max(weight, LEAST_WEIGHT);
+        form.weight = std::max(weight, MIN_WEIGHT);
         form.changeWeight = changeWeight;
         form.diagonal.resize(steps_);
         form.below.setZero(steps_);
@@ -74,8 +73,8 @@ namespace parking
 
     void MpcCost::setWanted(ControlForm &form, double last, const std::vector<double> &reference) const
     {
-        // Minimise W1 |u - r|^2 + W2 |du - dr|^2: the right hand side is what the references pull with, plus what the
-        // control before the horizon, which is no unknown, adds to the first row. Then w = L^-1 of it.
+        // Minimise W1 |u - r|^2 + W2 |du - dr|^2: the right hand side contains the references, and in the first row the
+        // control before the horizon, which is not an unknown. Then w = L^-1 of it.
         double before = 0.0;
         for (Eigen::Index k = 0; k < steps_; ++k)
         {
@@ -106,7 +105,7 @@ namespace parking
         for (const MpcReference &point : problem.reference)
         {
             Pose pose = relativeTo(problem.pose, point.pose);
-            // Headings count their turns, so that a reference past half a turn does not jump.
+            // Headings are not wrapped, so that a reference past half a turn does not jump.
             pose.yaw = before + wrapAngle(pose.yaw - before);
             before = pose.yaw;
             reference_.push_back(pose);
@@ -168,7 +167,7 @@ namespace parking
                 };
                 move(X, step.dx);
                 move(Y, step.dy);
-                move(YAW, step.dyaw);  // last: X and Y go by the heading before the step
+                move(YAW, step.dyaw);  // last: X and Y use the heading before the step
                 state.row(SPEED) = speedSensitivity_.head(n);
                 state.row(WHEELS) = wheelsSensitivity_.head(n);
                 jacobian->row(ROWS * k).head(n) = alongRoot_ * (c * state.row(X) + s * state.row(Y));

@@ -12,41 +12,43 @@ namespace parking
 {
     /** \brief The cost of the controller as a sum of squares, with its derivatives.
 
-        The unknowns are, for every step of the horizon, the commanded speed along the direction of travel and the
-        commanded steering angle that the step ends with. The commanded accelerations are the differences of the speeds;
-        with speeds as unknowns the limits of both controls have one form, a box and a bound on the change per step.
-        Speed and wheels follow their commands with a first-order lag each.
+        The unknowns of each step are the commanded speed along the direction of travel and the commanded steering angle
+        at its end. Differences of speeds give the commanded accelerations. With speeds as unknowns, the limits of both
+        controls have one form: a box, and a bound on the change per step. Speed and wheels follow their commands with a
+        first-order lag each.
 
-        Everything is seen from the pose of the car at the begin of the horizon, so that numbers stay small wherever the
-        map lies. One step's derivatives come from automatic differentiation and are chained over the horizon.
+        All quantities are relative to the pose of the car at the start of the horizon, so that numbers stay small on
+        any map. Automatic differentiation yields the derivatives of one step, which are chained over the horizon.
 
-        W1 and W2 together are a quadratic form with a constant tridiagonal matrix T per control u. With T = L L' it is
-        |L' u - w|^2 up to a constant: one residual per control instead of two, which a dense solver is grateful for. */
+        W1 and W2 form a quadratic form with a constant tridiagonal matrix T per control u. With T = L L' it is |L' u -
+        w|^2 up to a constant. This needs one residual per control instead of two, which saves time in a dense
+        solver. */
     class MpcCost
     {
     public:
-        /** \brief Derivatives of the residuals: a row for each of them, a column for each unknown. */
+        /** \brief Derivatives of the residuals: one row per residual, one column per unknown. */
         using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-        /** \brief Both must be valid (see Mpc); a problem has to be set before anything is evaluated. */
+        /** \brief Vehicle and parameters must be valid (see Mpc). Call setProblem() before evaluate(). */
         MpcCost(const Vehicle &vehicle, const MpcParameters &parameters);
 
-        /** \brief Number of unknowns: speed and steering angle for each step. */
+        /** \brief Number of unknowns: speed and steering angle of each step. */
         Eigen::Index unknowns() const
         {
             return 2 * steps_;
         }
 
-        /** \brief Number of residuals: five for each step. */
+        /** \brief Number of residuals: five per step. */
         Eigen::Index residuals() const
         {
             return ROWS * steps_;
         }
 
-        /** \brief Takes over a problem that is finite and of the right size. */
+        /** \brief Sets a problem, which must be finite and of the right size. */
         void setProblem(const MpcProblem &problem);
 
-        /** \brief Residuals at \e unknowns, and their Jacobian unless \e jacobian is null. Sizes are set. */
+        /** \brief Computes the residuals at \e unknowns, and their Jacobian unless \e jacobian is null. Both are
+            resized. */
         void evaluate(const Eigen::VectorXd &unknowns, Eigen::VectorXd &residuals, Jacobian *jacobian) const;
 
     private:

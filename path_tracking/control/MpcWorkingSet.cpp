@@ -7,8 +7,8 @@ namespace parking
 {
     namespace
     {
-        /** Share of the greatest change per step: closer to a limit than this is at the limit. Far less, and steps
-            would get stuck at limits that they just do not reach. */
+        /** Share of the maximum change per step: closer values are at the limit. With a far smaller share, steps would
+            stall just before limits. */
         constexpr double AT_LIMIT = 1e-3;
 
         /** -1 near the lower limit, 1 near the upper, 0 between. */
@@ -17,7 +17,7 @@ namespace parking
             return value >= high - near ? 1 : value <= low + near ? -1 : 0;
         }
 
-        /** One quantity over the horizon with the constraints that hold it. */
+        /** One quantity over the horizon with its active constraints. */
         class Chain
         {
         public:
@@ -56,7 +56,7 @@ namespace parking
                 return end;
             }
 
-            /** Can the values from \e begin to \e end not move, not even together? */
+            /** Whether the values from \e begin to \e end cannot move, not even together. */
             bool held(std::size_t begin, std::size_t end) const
             {
                 bool result = link_[begin] != 0;
@@ -74,13 +74,12 @@ namespace parking
                 return total;
             }
 
-            /** Drops the constraint of a stretch whose multiplier says loudest that the cost falls away from its limit.
-                One at a time: the multipliers of the others change with it.
-                \return whether there was one */
+            /** Drops the constraint with the multiplier of the steepest decrease of the cost. Only one is dropped at a
+                time, because the other multipliers change with it. \return whether there was one */
             bool release(std::size_t begin, std::size_t end)
             {
-                const bool anchored = link_[begin] != 0;  // only the first: tied to the value before the horizon
-                std::size_t support = end;                // the value that sits at its box; one holds the stretch
+                const bool anchored = link_[begin] != 0;  // only the first: coupled to the value before the horizon
+                std::size_t support = end;                // the value at its box bound; one fixes the stretch
                 for (std::size_t k = begin; k < end && !anchored && support == end; ++k)
                     if (bound_[k] != 0)
                         support = k;
@@ -98,7 +97,7 @@ namespace parking
                 };
                 for (std::size_t k = anchored ? begin : begin + 1; k < end; ++k)
                 {
-                    // The part of the stretch that the link ties to its support, and the sense in which it is inside.
+                    // The part of the stretch that the link couples to its support, and its inner side.
                     const bool tail = anchored || support == end || k > support;
                     weigh(link_[k], tail ? sum(k, end) - share * static_cast<double>(end - k) : -sum(begin, k));
                 }

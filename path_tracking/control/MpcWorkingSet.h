@@ -7,32 +7,31 @@
 
 namespace parking
 {
-    /** \brief The hard constraints on one quantity over a horizon: a box, and a bound on its change per step. */
+    /** \brief Hard constraints on one quantity over a horizon: a box, and a bound on its change per step. */
     struct ChannelLimits
     {
-        double low{0.0};     ///< least value, in the quantity's unit: m/s or radians
-        double high{0.0};    ///< greatest value, likewise
-        double change{0.0};  ///< per step, either sign
-        double last{0.0};    ///< the value before the horizon; outside of the box it may return by \e change per step
+        double low{0.0};     ///< minimum value, in m/s or radians
+        double high{0.0};    ///< maximum value, in m/s or radians
+        double change{0.0};  ///< maximum change per step, either sign
+        double last{0.0};    ///< value before the horizon; outside the box it may return by \e change per step
     };
 
-    /** \brief The constraints on the unknowns of a horizon, which take turns: speed after step 1, steering angle after
-        step 1, speed after step 2, and so on. */
+    /** \brief Constraints on the unknowns of a horizon, which alternate: speed after step 1, steering angle after step
+        1, speed after step 2, and so on. */
     using HorizonLimits = std::array<ChannelLimits, 2>;
 
-    /** \brief Moves \e unknowns within \e limits, from the first step to the last. */
+    /** \brief Clamps \e unknowns to \e limits, from the first step to the last. */
     void cutToLimits(const HorizonLimits &limits, Eigen::VectorXd &unknowns);
 
-    /** \brief Which constraints hold a feasible point against the gradient, and the directions that remain.
+    /** \brief The constraints active at a feasible point, and the directions that remain free.
 
-        A general least-squares solver knows boxes at most, and steps across active ones by cutting its step, which
-        stalls where many are active: on every full-lock arc. With the active constraints taken out of the unknowns what
-        is left is unconstrained nearby. Values tied to each other by an active bound on their change move together;
-        they share a direction. */
+        A general least-squares solver handles boxes at most. It clamps steps that cross active ones, which stalls if
+        many are active: on every full-lock arc. Without the active constraints the remaining problem is locally
+        unconstrained. Values coupled by an active bound on their change move together and share a direction. */
     class WorkingSet
     {
     public:
-        /** \brief Chooses the constraints active at \e unknowns whose multipliers have the sign of a minimum.
+        /** \brief Selects the active constraints at \e unknowns whose multipliers have the sign of a minimum.
 
             \param gradient of the cost at \e unknowns */
         WorkingSet(const HorizonLimits &limits, const Eigen::VectorXd &unknowns, const Eigen::VectorXd &gradient);
@@ -43,10 +42,10 @@ namespace parking
             return freedom_;
         }
 
-        /** \brief \e base moved by \e step in the free directions. */
+        /** \brief Returns \e base moved by \e step in the free directions. */
         Eigen::VectorXd expand(const Eigen::VectorXd &base, const double *step) const;
 
-        /** \brief Derivatives by the free directions: sums of the columns of \e full that move together.
+        /** \brief Computes derivatives by the free directions: sums of the columns of \e full that move together.
 
             \param reduced row-major, full.rows() by freedom() */
         template <typename Matrix>
@@ -63,14 +62,14 @@ namespace parking
             }
         }
 
-        /** \brief Do both hold the same constraints? Then the same directions are free. */
+        /** \brief Whether both have the same active constraints, and so the same free directions. */
         bool operator==(const WorkingSet &other) const
         {
             return direction_ == other.direction_;
         }
 
     private:
-        std::vector<int> direction_;  // per unknown: the free direction that it belongs to, -1 if it is held
+        std::vector<int> direction_;  // per unknown: its free direction, -1 if constrained
         Eigen::Index freedom_{0};
     };
 }  // namespace parking

@@ -13,7 +13,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double LARGEST_SCALE = 1.3;    // of the speed, and its inverse: beyond it is no wheel size
+        constexpr double LARGEST_SCALE = 1.3;  // of the speed, and its inverse: larger ratios are impossible for wheels
         constexpr double LARGEST_OFFSET = 0.15;  // radians
     }                                            // namespace
 
@@ -70,7 +70,7 @@ namespace parking
         transition(1, 4) = 0.5 * moved.dx * yawPerOffset;
         transition(2, 4) = yawPerOffset;
         covariance_ = (transition * covariance_ * transition.transpose()).eval();
-        // Errors of independent metres add up as a random walk.
+        // Errors of independent metres accumulate as a random walk.
         const double walk = parameters_.drift * parameters_.drift * std::abs(driven);
         for (int i = 0; i < 3; ++i)
             covariance_(i, i) += walk * (i == 2 ? 0.1 : 1.0);

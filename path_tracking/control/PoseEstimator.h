@@ -7,65 +7,67 @@
 
 namespace parking
 {
-    /** \brief What the pose filter assumes of the sensors. */
+    /** \brief Assumed errors of the sensors. */
     struct EstimatorParameters
     {
         double positionNoise{0.02};     ///< metres, standard deviation of x and y of a measured pose
-        double yawNoise{0.00873};       ///< radians (0.5 degrees), likewise
-        double speedBias{0.05};         ///< share of the speed by which odometry may be wrong
-        double steeringOffset{0.0175};  ///< radians (1 degree) by which the wheels may stand off
-        /** Metres and radians per metre driven that dead reckoning may err beyond the biases. */
+        double yawNoise{0.00873};       ///< radians (0.5 degrees), standard deviation of a measured yaw
+        double speedBias{0.05};         ///< relative error of the measured speed
+        double steeringOffset{0.0175};  ///< radians (1 degree), offset of the wheels
+        /** Metres and radians per metre driven, error of dead reckoning beyond the biases. */
         double drift{0.01};
 
         /** \brief Throws parking::Error naming the first field that is not a positive finite number. */
         void validate() const;
     };
 
-    /** \brief Where the car is: an extended Kalman filter over pose, scale of the speed and offset of the steering.
+    /** \brief Estimates the pose of the car: an extended Kalman filter over pose, scale of the speed and offset of the
+        steering.
 
-        Dead reckoning with the measured speed and steering angle predicts, the measured pose corrects. The two biases
-        are states, so that a wheel of another size or a bent steering are learnt on the way and can be compensated.
-        While the car stands its pose does not change, and every measurement makes it better known. */
+        Measured speed and steering predict the pose by dead reckoning; the measured pose corrects it. The two biases
+        are states, so that a different wheel size or a bent steering is learnt and compensated. While the car stands
+        its pose is constant, and every measurement refines it. */
     class PoseEstimator
     {
     public:
         /** \brief Throws parking::Error for invalid \e parameters. \param wheelbase metres */
         PoseEstimator(double wheelbase, const EstimatorParameters &parameters);
 
-        /** \brief Begins with \e measurement. */
+        /** \brief Initialises the state with \e measurement. */
         void start(const Measurement &measurement);
 
-        /** \brief Dead reckoning over \e duration seconds, to \e speed and \e steering as measured at its end. */
+        /** \brief Predicts the pose by dead reckoning over \e duration seconds, to \e speed and \e steering measured at
+            its end. */
         void predict(double duration, double speed, double steering);
 
-        /** \brief Takes over a measured pose. */
+        /** \brief Corrects the state with a measured pose. */
         void correct(const Pose &measured);
 
-        /** \brief Where the car is thought to be, of the rear axle. */
+        /** \brief Estimated pose of the rear axle. */
         const Pose &pose() const
         {
             return pose_;
         }
 
-        /** \brief Speed over ground in m/s, the learnt scale applied. */
+        /** \brief Speed over ground in m/s, with the learnt scale. */
         double speed() const
         {
             return speedScale_ * speed_;
         }
 
-        /** \brief Angle of the wheels in radians, the learnt offset applied. */
+        /** \brief Angle of the wheels in radians, with the learnt offset. */
         double steering() const
         {
             return steering_ + steeringOffset_;
         }
 
-        /** \brief As measured last, m/s, negative in reverse. */
+        /** \brief Last measured speed in m/s, negative in reverse. */
         double measuredSpeed() const
         {
             return speed_;
         }
 
-        /** \brief As measured last, radians. */
+        /** \brief Last measured steering angle in radians. */
         double measuredSteering() const
         {
             return steering_;
@@ -77,7 +79,7 @@ namespace parking
             return speedScale_;
         }
 
-        /** \brief Radians that the wheels stand farther left than measured. */
+        /** \brief Angle of the wheels to the left of the measured one, in radians. */
         double steeringOffset() const
         {
             return steeringOffset_;

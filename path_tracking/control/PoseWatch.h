@@ -2,28 +2,31 @@
 
 namespace parking
 {
-    /** \brief Knows whether the car is still told where it is, and what to do about it when it is not.
+    /** \brief Monitors whether pose measurements arrive, and decides how a car without them proceeds.
 
-        A few periods without a pose are bridged by dead reckoning. After more the car has to stop; standing it waits
-        for the pose, with patience, until there have been as many good ones one after the other as may be missing. */
+        Dead reckoning bridges a few periods without a pose. After more, the car must stop and wait up to a time limit.
+        It continues after as many consecutive poses as may be missing. */
     class PoseWatch
     {
     public:
-        /** \brief What a standing car may do. */
+        /** \brief Action of a standing car. */
         enum class Verdict
         {
             Wait,   ///< stand and wait
-            Back,   ///< the pose is back: it can be planned from where the car stands
-            GiveUp  ///< the patience is at its end
+            Back,   ///< the pose is available again; planning may start from here
+            GiveUp  ///< the time limit has passed
         };
 
-        /** \param bridged periods without a pose that are bridged \param patience seconds that a standing car waits
-            \param period seconds of control */
-        PoseWatch(int bridged, double patience, double period) : bridged_(bridged), patience_(patience), period_(period)
+        /** \param bridged number of consecutive periods without a pose that are bridged \param waitLimit seconds that a
+            standing car waits \param period seconds of control */
+        PoseWatch(int bridged, double waitLimit, double period)
+          : bridged_(bridged),
+            waitLimit_(waitLimit),
+            period_(period)
         {
         }
 
-        /** \brief Takes over whether this period's measurement can be used. */
+        /** \brief Records whether the measurement of this period is usable. */
         void note(bool usable)
         {
             begun_ = begun_ || usable;
@@ -32,32 +35,32 @@ namespace parking
             lost_ = lost_ || isMissing();
         }
 
-        /** \brief Has there been no pose for longer than is bridged, or never one? */
+        /** \brief Whether the pose has been missing for longer than is bridged, or was never available. */
         bool isMissing() const
         {
             return !begun_ || missing_ > bridged_;
         }
 
-        /** \brief Has that ever been so? */
+        /** \brief Whether the pose has ever been missing for longer than is bridged. */
         bool wasLost() const
         {
             return lost_;
         }
 
-        /** \brief Asked once a period by a car that stands because the pose was lost. */
+        /** \brief Decides for a car that stands because its pose was lost. Call it once per period. */
         Verdict stand()
         {
             if (seen_ > bridged_)
                 return Verdict::Back;
             stood_ += period_;
-            return stood_ > patience_ ? Verdict::GiveUp : Verdict::Wait;
+            return stood_ > waitLimit_ ? Verdict::GiveUp : Verdict::Wait;
         }
 
     private:
         int bridged_;
-        double patience_, period_;
+        double waitLimit_, period_;
         bool begun_{false}, lost_{false};
-        int missing_{0}, seen_{0};  // periods, one after the other
+        int missing_{0}, seen_{0};  // consecutive periods
         double stood_{0.0};         // seconds
     };
 }  // namespace parking

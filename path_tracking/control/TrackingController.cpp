@@ -14,12 +14,12 @@ namespace parking
 {
     namespace
     {
-        constexpr double LAG_ALLOWED = 0.05;       // metres behind the timed path before its clock slows down
-        constexpr double LAG_STOP = 0.25;          // metres behind at which the clock stands still
-        constexpr double STUCK_TIME = 5.0;         // seconds with a standing clock after which the drive is given up
-        constexpr double STEERING_PATIENCE = 2.0;  // seconds without progress that the wheels are waited for
-        constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
-        constexpr double NO_TIME = 1e-9;           // seconds
+        constexpr double LAG_ALLOWED = 0.05;         // metres behind the timed path at which its clock slows down
+        constexpr double LAG_STOP = 0.25;            // metres behind at which the clock stops
+        constexpr double STUCK_TIME = 5.0;           // seconds with a stopped clock until the safe stop
+        constexpr double STEERING_WAIT_LIMIT = 2.0;  // seconds of waiting for wheels without progress
+        constexpr double MIN_PROGRESS = 1e-4;        // radians per period that count as progress
+        constexpr double NO_TIME = 1e-9;             // seconds
 
         double towards(double from, double to, double most)
         {
@@ -44,7 +44,7 @@ namespace parking
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
         response_(vehicle, parameters.response, parameters.mpc.step, initialSteering),
-        poseWatch_(parameters.maxFailures, parameters.posePatience, parameters.mpc.step)
+        poseWatch_(parameters.maxFailures, parameters.poseWaitLimit, parameters.mpc.step)
     {
         last_.steering = initialSteering;
         if (!reference_)
@@ -114,7 +114,7 @@ namespace parking
         poseWatch_.note(usable);
         if (!started_)
         {
-            // Nothing to reckon from: the first measurement must be good.
+            // Dead reckoning needs a valid first measurement.
             started_ = usable;
             response_.start(usable ? measurement : Measurement{reference_->at(0, 0.0).pose, 0.0, last_.steering});
             return;
@@ -170,7 +170,7 @@ namespace parking
         const double braking = 0.5 * vehicle_.maxAcceleration * std::pow(0.5 * parameters_.mpc.step, 2);
         if (over >= -0.5 * parameters_.mpc.step && mayReverse() && left <= parameters_.stopTolerance + braking)
             return true;
-        // Beyond the end nothing is left to drive; shortly before it the timed path is given its time.
+        // Beyond the end the leg is over; shortly before it the timed path may finish.
         return left <= (over >= 0.0 ? parameters_.stopTolerance : 0.0);
     }
 
@@ -188,7 +188,7 @@ namespace parking
 
     void TrackingController::nextLeg(TrackingStep &step)
     {
-        // The time since the leg should have ended, or until then, counts for what follows.
+        // The time until or since the planned end of the leg belongs to the next one.
         const double over = clock_ - leg().duration;
         waited_ = 0.0;
         wheelsOff_ = 0.0;
@@ -251,7 +251,7 @@ namespace parking
             arrive(step);
             return;
         }
-        // A leg that begins within this period may be begun when the wheels get there in time.
+        // A leg that starts within this period may start if the wheels are ready in time.
         const double left = std::clamp(-clock_, 0.0, period);
         const bool inTime =
             off <= parameters_.steeringTolerance + reference_->steeringRate() * left &&
@@ -260,17 +260,17 @@ namespace parking
             clock_ + period > NO_TIME && (there || inTime))
         {
             mode_ = TrackingMode::Driving;
-            clock_ = std::min(clock_, 0.0) - response_.delay();  // it begins when the first command arrives
+            clock_ = std::min(clock_, 0.0) - response_.delay();  // it starts when the first command arrives
             waited_ = 0.0;
             planAge_ = 0;
             plan_.clear();
             mpc_.reset();
             return;
         }
-        // Wheels that come nearer are given time; wheels that do not move are broken.
-        waited_ = off < wheelsOff_ - LEAST_PROGRESS || last_.steering != target ? 0.0 : waited_ + period;
+        // Wait for wheels that make progress; wheels that do not move are defective.
+        waited_ = off < wheelsOff_ - MIN_PROGRESS || last_.steering != target ? 0.0 : waited_ + period;
         wheelsOff_ = off;
-        if (waited_ > STEERING_PATIENCE)
+        if (waited_ > STEERING_WAIT_LIMIT)
         {
             if (standing)
                 stuckAt_ = estimator().measuredSteering();
@@ -294,7 +294,7 @@ namespace parking
     MpcProblem TrackingController::makeProblem(const CarState &car) const
     {
         const double period = parameters_.mpc.step;
-        const double clock = clock_ + response_.delay();  // when what is commanded now arrives
+        const double clock = clock_ + response_.delay();  // arrival time of this command
         const double driveLag = response_.driveLag(), steeringLag = response_.steeringLag();
         MpcProblem problem;
         problem.pose = car.pose;
@@ -314,7 +314,7 @@ namespace parking
         for (std::size_t k = 1; k <= parameters_.mpc.horizon; ++k)
         {
             const double time = clock + static_cast<double>(k) * period;
-            // Commands have to be ahead of the car by its lags.
+            // Commands must lead the car by its lags.
             problem.reference.push_back({reference_->at(leg_, time).pose,
                                          leg().direction * reference_->at(leg_, time + driveLag).speed,
                                          steeringAt(time + steeringLag)});
@@ -356,7 +356,7 @@ namespace parking
         }
         catch (const std::exception &error)
         {
-            // A moving car needs its controller, whatever happens to the optimiser.
+            // A moving car needs its controller even if the optimiser throws.
             MpcSolution none;
             none.message = std::string("the solver failed: ") + error.what();
             return none;
@@ -365,7 +365,7 @@ namespace parking
 
     double TrackingController::withinSpeedLimit(double acceleration, const CarState &car) const
     {
-        // What the car still takes up of earlier commands counts: its drive lags behind.
+        // Earlier commands still act, because the drive lags behind.
         const double scale = estimator().speedScale(), period = parameters_.mpc.step;
         const double coming = car.speed + car.acceleration * response_.driveLag();
         const double most = (vehicle_.maxSpeed - coming) / (scale * period);
@@ -382,7 +382,7 @@ namespace parking
         step.solved = true;
         step.solveTime = solution.solveTime;
         step.iterations = solution.iterations;
-        // An optimiser from outside is trusted neither with numbers nor with limits.
+        // The solution of an external optimiser may be invalid or beyond the limits.
         const bool good = solution.usable && !solution.controls.empty() &&
                           std::all_of(solution.controls.begin(), solution.controls.end(),
                                       [](const MpcControl &control) {
@@ -416,12 +416,12 @@ namespace parking
         clock_ += rate * period;
         waited_ = rate < 0.05 ? waited_ + period : 0.0;
         if (waited_ > STUCK_TIME)
-            beginStop("the car does not move on", step);
+            beginStop("the car does not move", step);
     }
 
     void TrackingController::endWithPeriod(const CarState &car, TrackingStep &step)
     {
-        // A leg that ends within this period ends at rest, however little is left of the period.
+        // A leg that ends within this period ends at rest, for any rest of the period.
         const double period = parameters_.mpc.step;
         const double scale = estimator().speedScale();
         const double speed = leg().direction * car.speed / scale;
@@ -436,7 +436,7 @@ namespace parking
 
     Command TrackingController::braking(const CarState &car, const PathProjection &place, double last) const
     {
-        // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
+        // Lateral error and heading error decay along the driven distance as e'' = -k1 e - k2 e'.
         constexpr double K1 = 0.5, K2 = 1.2;
         const double curvature = vehicle_.curvature(reference_->steering(leg_, place.s)) - K1 * place.lateral -
                                  leg().direction * K2 * place.yaw;
@@ -469,11 +469,11 @@ namespace parking
 
     void TrackingController::waitForWheels(TrackingStep &step)
     {
-        // They are told to turn a little towards the middle, and are back when they do.
+        // A small command towards straight wheels tests whether they move again.
         constexpr double TRIED = 0.1, TURNED = 0.02;
         wheelsAwaited_ += parameters_.mpc.step;
         const bool areBack = std::abs(estimator().measuredSteering() - *stuckAt_) >= TURNED;
-        if (!areBack && wheelsAwaited_ <= parameters_.wheelPatience)
+        if (!areBack && wheelsAwaited_ <= parameters_.wheelWaitLimit)
         {
             const double target = std::clamp(*stuckAt_ - std::copysign(TRIED, *stuckAt_), -vehicle_.maxSteeringAngle,
                                              vehicle_.maxSteeringAngle);
@@ -482,8 +482,8 @@ namespace parking
         }
         mode_ = TrackingMode::Stopped;
         step.event = areBack ? "the wheels turn again"
-                             : "safe stop: the wheels do not follow their command, and have not for " +
-                                   formatNumber(parameters_.wheelPatience) + " s";
+                             : "safe stop: the wheels have not followed their command for " +
+                                   formatNumber(parameters_.wheelWaitLimit) + " s";
         if (areBack)
             step.interruption = "the wheels did not follow their command";
     }
@@ -495,36 +495,36 @@ namespace parking
             return;
         mode_ = TrackingMode::Stopped;
         const bool isBack = verdict == PoseWatch::Verdict::Back;
-        step.event = isBack ? "the pose is back"
-                            : "safe stop: the pose was lost, and not back after " +
-                                  formatNumber(parameters_.posePatience) + " s";
+        step.event = isBack ? "the pose is available again"
+                            : "safe stop: the pose was lost and not recovered within " +
+                                  formatNumber(parameters_.poseWaitLimit) + " s";
         if (isBack)
             step.interruption = "the pose was lost";
     }
 
-    Path TrackingController::stoppingWay(const Command &command) const
+    Path TrackingController::stoppingPath(const Command &command) const
     {
-        constexpr int MOST_PERIODS = 600;
+        constexpr int MAX_PERIODS = 600;
         const double brakes = std::min(response_.brakeScale(), 1.0 - parameters_.brakeReserve);
-        Path way{estimator().pose(), {}};
-        CarState car = response_.after(response_.ahead(&way), command, brakes, &way);
+        Path path{estimator().pose(), {}};
+        CarState car = response_.after(response_.ahead(&path), command, brakes, &path);
         double s = s_, last = command.steering;
-        for (int i = 0; i < MOST_PERIODS && std::abs(car.speed) > STANDING; ++i)
+        for (int i = 0; i < MAX_PERIODS && std::abs(car.speed) > STANDING; ++i)
         {
             const PathProjection place = reference_->project(leg_, car.pose, s - SEARCH, s + SEARCH);
             const Command next = braking(car, place, last);
             s = place.s;
             last = next.steering;
-            car = response_.after(car, next, brakes, &way);
+            car = response_.after(car, next, brakes, &path);
         }
-        return way;
+        return path;
     }
 
     void TrackingController::askGuard(TrackingStep &step)
     {
         step.estimate = estimator().pose();
         step.leg = leg_;
-        step.stoppingWay = stoppingWay(step.command);
+        step.stoppingPath = stoppingPath(step.command);
         if (guard_(step))
         {
             refused_ = 0.0;
@@ -533,12 +533,12 @@ namespace parking
         const CarState car = response_.ahead();
         step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
         if (refused_ == 0.0 && step.event.empty())
-            step.event = "slowing down: the way to a stop is not free";
+            step.event = "slowing down: the path to a stop is not free";
         if (std::abs(estimator().speed()) <= STANDING)
             refused_ += parameters_.mpc.step;
-        if (refused_ < parameters_.guardPatience)
+        if (refused_ < parameters_.guardWaitLimit)
             return;
-        step.interruption = "the car could not stop in time if it went on";
-        beginStop("the car cannot go on and still stop in time", step);
+        step.interruption = "the car could not stop in time if it drove on";
+        beginStop("the car could not stop in time if it drove on", step);
     }
 }  // namespace parking

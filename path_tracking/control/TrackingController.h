@@ -18,82 +18,83 @@
 
 namespace parking
 {
-    /** \brief What the controller is about. */
+    /** \brief Activity of the controller. */
     enum class TrackingMode
     {
-        Steering,  ///< standing, turning the wheels to where the leg begins, or to where they shall end
+        Steering,  ///< standing, steering to the start of the leg, or to the required final angle
         Driving,   ///< on a leg
-        Braking,   ///< a safe stop: braking on the path
-        Waiting,   ///< standing after a safe stop until the pose is known, or the wheels turn, again
+        Braking,   ///< braking on the path for a safe stop
+        Waiting,   ///< standing after a safe stop until the pose is known or the wheels turn again
         Arrived,   ///< standing at the end of the path
         Stopped    ///< standing after a safe stop
     };
 
-    /** \brief What the controller did and saw in one period. */
+    /** \brief Output of the controller for one period. */
     struct TrackingStep
     {
         Command command;                            ///< for the car in this period
-        TrackingMode mode{TrackingMode::Steering};  ///< after this period was decided
+        TrackingMode mode{TrackingMode::Steering};  ///< at the end of this period
         std::size_t leg{0};                         ///< index into the legs of the reference
         Pose estimate;                              ///< of the car, filtered
         double s{0.0};                              ///< metres along the reference
         double crossTrack{0.0};                     ///< metres to the left of the reference, of the estimate
         double headingError{0.0};                   ///< radians
-        bool solved{false};                         ///< was the optimiser asked?
-        bool solverFailed{false};                   ///< and was its answer useless?
+        bool solved{false};                         ///< whether the optimiser ran
+        bool solverFailed{false};                   ///< whether its solution was unusable
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
-        /** Why the car stands after a safe stop though another drive may lead on from here: what it waited for is back,
-            or the guard kept it from going on. Empty otherwise. */
+        /** Why the car stands after a safe stop although another drive may continue from here. Either the lost pose or
+            the wheels have recovered, or the guard kept the car from moving on. Empty otherwise. */
         std::string interruption;
-        /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
-            lags that were learnt, and the brake in reserve. Only a guard gets to see it. */
-        Path stoppingWay;
-        std::string event;  ///< empty, or what happened: a failure, the reason of a stop
+        /** Path from the estimate if the car obeys this command and then stops. It accounts for the learnt delay and
+            lags, and for the reserve of braking. Set for guards only. */
+        Path stoppingPath;
+        std::string event;  ///< a failure, or the reason of a stop; otherwise empty
     };
 
     /** \brief Drives a timed path or motion: model predictive control on the legs, steering at standstill between them.
 
-        The horizon is filled from the reference by a clock of its own, which runs with time but waits for a car that
-        falls behind. At the end of a leg the car comes to rest; the wheels are turned to where the next leg begins
-        before it moves off. Legs need not begin or end with a period: what is left of one belongs to what follows. The
-       pose is filtered: dead reckoning with measured speed and steering, corrected by a share of the difference to the
-       measured pose.
+        A clock of the controller selects the reference of the horizon. It advances with time but waits for a car that
+        falls behind. At the end of a leg the car stops, and steers to the start of the next leg before it moves. Legs
+        need not begin or end with a period: the rest of a period belongs to the next leg.
 
-        Commands that take their time to arrive are reckoned with: the horizon begins where the car will be by then.
+        The pose is filtered: measured speed and steering predict it, and a share of the difference to the measured pose
+        corrects it. Delays of commands are compensated: the horizon starts at the predicted pose on arrival.
 
-        Safety: a guard may refuse a command, for the way that the car would need to stop after it; then the car brakes
-        along the path instead, until the guard lets it go on. When the optimiser fails, the rest of its last answer is
-       used for a few periods; when failures go on, the pose is lost or the car strays from the path, the car brakes
-       with its full deceleration, steered along the path by a plain feedback law that needs no optimiser, and stands.
-       There it waits for a pose that was lost, or for wheels that stick: when they are back the drive is over, and
-       another one can begin.
-       Whatever happens, the command obeys the car's limits. */
+        Safety: a guard may reject a command because of the path to a stop after it. The car then brakes along the path
+        until the guard accepts a command. If the optimiser fails, the rest of its last solution is used for a few
+        periods.
+
+        The car makes a safe stop after repeated failures, without a pose, or far from the path. It brakes with full
+        deceleration, and a simple feedback law without an optimiser steers it along the path. It then waits for the
+        pose or the wheels. Once they recover, the drive is over and another one can begin.
+
+        Every command obeys the car's limits. */
     class TrackingController
     {
     public:
-        /** \brief What answers the problem of a period; its answer is checked, whatever it is. */
+        /** \brief Solver of the problem of a period. The controller checks each solution. */
         using Solve = std::function<MpcSolution(const MpcProblem &)>;
-        /** \brief May this be commanded? Otherwise the car brakes in this period.
+        /** \brief Whether a command is allowed. Otherwise the car brakes in this period.
 
-            What it allows, it must have been able to stop after; so a guard that refuses what leads to a touch before
-            standstill keeps a car that is as good as is assumed from any. */
+            The car must be able to stop after an allowed command. A guard that rejects commands whose stopping path
+            collides therefore prevents collisions, as long as the car performs as assumed. */
         using Guard = std::function<bool(const TrackingStep &)>;
 
         /** \brief Plans the drive along \e path from \e initialSteering.
 
-            \param solve replaces the optimiser (to try another one, or failures); empty: Mpc
+            \param solve replaces the optimiser, for example to simulate failures; empty: Mpc
             Throws parking::Error for a path, a vehicle or parameters that cannot be used. */
         TrackingController(const Path &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
                            double initialSteering = 0.0, Solve solve = {});
 
-        /** \brief Follows \e reference, in the way that it is timed.
+        /** \brief Follows \e reference with its timing.
 
-            Throws parking::Error for a vehicle or parameters that cannot be used, and without a reference. */
+            Throws parking::Error for a vehicle or parameters that cannot be used, or a null reference. */
         TrackingController(std::shared_ptr<const TimedReference> reference, const Vehicle &vehicle,
                            const TrackingParameters &parameters = {}, double initialSteering = 0.0, Solve solve = {});
 
-        /** \brief What is followed: the timed legs. */
+        /** \brief The timed legs that the controller follows. */
         const TimedReference &reference() const
         {
             return *reference_;
@@ -105,29 +106,28 @@ namespace parking
             return parameters_;
         }
 
-        /** \brief What the controller is about since the last step(). */
+        /** \brief The mode after the last step(). */
         TrackingMode mode() const
         {
             return mode_;
         }
 
-        /** \brief Is the drive over, well or not? */
+        /** \brief Whether the drive is over, successfully or not. */
         bool finished() const
         {
             return mode_ == TrackingMode::Arrived || mode_ == TrackingMode::Stopped;
         }
 
-        /** \brief Decides the next period (of parameters().mpc.step seconds). */
+        /** \brief Computes the command of the next period (of parameters().mpc.step seconds). */
         TrackingStep step(const Measurement &measurement);
 
-        /** \brief Whom to ask before each command on a leg; empty: nobody. */
+        /** \brief Sets the guard that checks each command on a leg; may be empty. */
         void setGuard(Guard guard);
 
-        /** \brief Asks for a safe stop; the next step begins it. \param reason appears as its event. */
+        /** \brief Requests a safe stop, which begins with the next step. \param reason text of its event */
         void requestStop(const std::string &reason);
 
-        /** \brief How the car follows its commands, as far as it has been learnt: what its next controller may begin
-            with. */
+        /** \brief The learnt response of the car to commands, with which its next controller may start. */
         ResponseParameters learntResponse() const
         {
             return response_.learnt();
@@ -163,7 +163,7 @@ namespace parking
         void waitForPose(TrackingStep &step);
         void waitForWheels(TrackingStep &step);
         Command braking(const CarState &car, const PathProjection &place, double last) const;
-        Path stoppingWay(const Command &command) const;
+        Path stoppingPath(const Command &command) const;
         void askGuard(TrackingStep &step);
         Command standStill(double speed, double last, double steering, double rate) const;
         Command stand(double steering) const;
@@ -188,9 +188,9 @@ namespace parking
 
         TrackingMode mode_{TrackingMode::Steering};
         std::size_t leg_{0};
-        bool turnsLast_{false};  // is it over but for the wheels, which turn to where they shall end?
+        bool turnsLast_{false};  // whether only the final steering at standstill remains
         double clock_{0.0};      // seconds since the motion on the leg began, of the reference
-        double waited_{0.0};     // seconds that the wheels have had to arrive, or that the clock has stood still
+        double waited_{0.0};     // seconds of waiting for the wheels, or with a stopped clock
         double wheelsOff_{0.0};  // radians between the wheels and where the leg begins, a period ago
         bool started_{false};
         double s_{0.0};

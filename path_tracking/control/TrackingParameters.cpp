@@ -22,9 +22,9 @@ namespace parking
         checkShare(require, "steeringRateShare", steeringRateShare);
         response.validate();
         require.that(brakeReserve >= 0.0 && brakeReserve < 1.0, "brakeReserve", brakeReserve, "at least 0 and below 1");
-        require.notNegative("guardPatience", guardPatience);
-        require.notNegative("posePatience", posePatience);
-        require.notNegative("wheelPatience", wheelPatience);
+        require.notNegative("guardWaitLimit", guardWaitLimit);
+        require.notNegative("poseWaitLimit", poseWaitLimit);
+        require.notNegative("wheelWaitLimit", wheelWaitLimit);
         require.positive("lateralAcceleration", lateralAcceleration);
         require.positive("stopTolerance", stopTolerance);
         require.positive("arrivalTolerance", arrivalTolerance);

@@ -7,40 +7,39 @@
 
 namespace parking
 {
-    /** \brief How a path is driven. */
+    /** \brief Parameters of a TrackingController. */
     struct TrackingParameters
     {
-        MpcParameters mpc;              ///< of the controller on the legs, its period included
+        MpcParameters mpc;              ///< of the controller on the legs, including its period
         ReferenceParameters reference;  ///< how the path is made drivable
 
         // The timed path keeps below the car's limits, so that the controller has something left to correct with.
         double speedShare{0.95};          ///< of the car's speed limit, in (0, 1]
-        double accelerationShare{0.8};    ///< likewise
-        double steeringRateShare{0.8};    ///< likewise
+        double accelerationShare{0.8};    ///< of the car's acceleration limit, in (0, 1]
+        double steeringRateShare{0.8};    ///< of the car's steering rate, in (0, 1]
         double lateralAcceleration{1.0};  ///< m/s^2
 
-        ResponseParameters response;  ///< what is known beforehand of how the car follows its commands
-        /** Share by which the car may slow down less than its data say: what a guard is told of the way that a stop
-            takes. */
+        ResponseParameters response;  ///< initial knowledge of the car's response to commands
+        /** Assumed loss of braking, as a share, in the stopping path that a guard receives. */
         double brakeReserve{0.2};
-        double guardPatience{1.0};  ///< seconds that a guard may keep the car standing before it is a safe stop
+        double guardWaitLimit{1.0};  ///< seconds that a guard may keep the car standing before a safe stop
 
-        double stopTolerance{0.005};      ///< metres before the end of a leg at which standing still counts as arrived
-        double settleTime{1.5};           ///< seconds granted for that after the timed path has ended
-        double arrivalTolerance{0.15};    ///< metres from the end of the path; standing farther off is not arriving
-        double steeringTolerance{0.005};  ///< radians, of the wheels before the car moves off
+        double stopTolerance{0.005};      ///< metres before the end of a leg at which a standing car has arrived
+        double settleTime{1.5};           ///< seconds to arrive after the timed path has ended
+        double arrivalTolerance{0.15};    ///< metres from the end of the path; farther off the car has not arrived
+        double steeringTolerance{0.005};  ///< radians, error of the wheels below which the car starts to move
 
-        double maxCrossTrack{0.5};    ///< metres beside the path; beyond it the car stops
-        double maxHeadingError{0.7};  ///< radians, likewise
-        /** Seconds that a car which has stopped because its pose was lost waits for it. */
-        double posePatience{10.0};
-        double wheelPatience{10.0};  ///< seconds, likewise, because its wheels did not follow their command
-        int maxFailures{3};          ///< consecutive solver failures or unusable measurements; more and the car stops
+        double maxCrossTrack{0.5};    ///< metres beside the path beyond which the car stops
+        double maxHeadingError{0.7};  ///< radians off the heading of the path beyond which the car stops
+        /** Seconds that a car which stopped without a pose waits for it. */
+        double poseWaitLimit{10.0};
+        double wheelWaitLimit{10.0};  ///< seconds that a car which stopped for stuck wheels waits for them
+        int maxFailures{3};           ///< consecutive solver failures or unusable measurements before the car stops
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
 
-        /** \brief What the timed path may ask of \e vehicle. */
+        /** \brief The limits of the timed path for \e vehicle. */
         SpeedLimits limits(const Vehicle &vehicle) const;
     };
 }  // namespace parking

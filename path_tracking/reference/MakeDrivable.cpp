@@ -21,28 +21,28 @@ namespace parking
 {
     namespace
     {
-        constexpr double SHUNT_STEP = 0.1;       // metres between the places where a shunt's deviation is looked at
+        constexpr double SHUNT_STEP = 0.1;       // metres between checks of a shunt's deviation
         constexpr double SHORTEST_PIECE = 1e-7;  // metres; less is rounding
-        constexpr double MOST_CURVATURE = 1.01;  // of the car's that a path may have: rounding of turning radii
-        constexpr double ROUNDING_TURN = 1e-9;   // radians; less is rounding of headings and not a corner
-        constexpr double EXACT = 1e-5;           // metres from a place that count as standing there
-        constexpr double EXACT_YAW = 1e-6;       // radians likewise
-        constexpr double BESIDE = 0.01;          // metres from a place that two gentle arcs make good
-        constexpr double BESIDE_YAW = 0.03;      // radians likewise
-        constexpr double END = 0.02;             // metres beside the end of the path from which the car shunts to it
-        constexpr double END_YAW = 0.03;         // radians likewise
+        constexpr double MAX_CURVATURE = 1.01;  // maximum curvature of a path over the car's: rounding of turning radii
+        constexpr double ROUNDING_TURN = 1e-9;  // radians; less is rounding of headings and not a corner
+        constexpr double EXACT = 1e-5;          // metres from a place within which the car stands there
+        constexpr double EXACT_YAW = 1e-6;      // radians, for the same purpose
+        constexpr double BESIDE = 0.01;         // metres from a place that two gentle arcs correct
+        constexpr double BESIDE_YAW = 0.03;     // radians, for the same purpose
+        constexpr double END = 0.02;            // metres beside the end of the path above which the car shunts to it
+        constexpr double END_YAW = 0.03;        // radians, for the same purpose
 
         constexpr double STEP = 0.05;               // metres that the simulated car drives at a time
-        constexpr double BACK_ON_PATH = 0.005;      // metres beside the stretch that count as being on it
-        constexpr double BACK_IN_YAW = 0.005;       // radians likewise
-        constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m likewise
+        constexpr double BACK_ON_PATH = 0.005;      // metres beside the stretch within which the car is on it
+        constexpr double BACK_IN_YAW = 0.005;       // radians, for the same purpose
+        constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m, for the same purpose
         constexpr double SEARCH_AHEAD = 2.0;        // metres of the stretch searched for the nearest place
-        constexpr double JOIN_LENGTH = 1.0;         // metres over which a car returns exactly
-        constexpr double LEAST_JOIN = 0.3;          // metres; in less, even millimetres ask for much steering
+        constexpr double JOIN_LENGTH = 1.0;         // metres over which a car returns to the path
+        constexpr double MIN_JOIN = 0.3;            // metres; in less, even millimetres require much steering
 
-        bool apart(const Pose &a, const Pose &b, double most, double mostYaw)
+        bool apart(const Pose &a, const Pose &b, double most, double maxYaw)
         {
-            return positionDistance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > mostYaw;
+            return positionDistance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > maxYaw;
         }
 
         bool isCorner(const PathPiece &piece)
@@ -54,7 +54,7 @@ namespace parking
         {
             if (!isFinite(path.start))
                 throw Error("path: its start must be finite numbers");
-            const double most = MOST_CURVATURE / vehicle.minTurningRadius();
+            const double most = MAX_CURVATURE / vehicle.minTurningRadius();
             for (std::size_t i = 0; i < path.pieces.size(); ++i)
             {
                 const PathPiece &piece = path.pieces[i];
@@ -72,7 +72,7 @@ namespace parking
                         fail("curvature " + formatNumber(curvature) + " 1/m is beyond the car's " +
                              formatNumber(1.0 / vehicle.minTurningRadius()) + " 1/m");
             }
-            // Shorter pieces are dropped, however many there are.
+            // Shorter pieces are dropped, independent of their number.
             if (std::none_of(path.pieces.begin(), path.pieces.end(),
                              [](const PathPiece &piece) { return piece.driven() >= SHORTEST_PIECE; }))
                 throw Error("path: it must have a length");
@@ -90,7 +90,7 @@ namespace parking
             return merged;
         }
 
-        /** The stretch as a polyline of places with distances from its begin. */
+        /** The stretch as a polyline of places with distances from its start. */
         class Guide
         {
         public:
@@ -105,7 +105,7 @@ namespace parking
                 {
                     if (piece.turn != 0.0)
                         lastCorner_ = distances_.back();
-                    // Bent pieces are resampled so that the polyline is the stretch.
+                    // Curved pieces are resampled so that the polyline follows the stretch.
                     const bool bent = piece.curvature != 0.0 || piece.sharpness != 0.0;
                     const int parts = bent ? std::max(1, static_cast<int>(std::ceil(piece.driven() / STEP))) : 1;
                     for (int k = 1; k <= parts && piece.length != 0.0; ++k)
@@ -124,7 +124,7 @@ namespace parking
                 return distances_.back();
             }
 
-            /** Distance of the last corner from the begin. */
+            /** Distance of the last corner from the start. */
             double lastCorner() const
             {
                 return lastCorner_;
@@ -141,7 +141,7 @@ namespace parking
                 return points_.back();
             }
 
-            /** The place at \e distance; beyond the end straight on. */
+            /** The place at \e distance; beyond the end it continues straight. */
             Eigen::Vector2d at(double distance) const
             {
                 if (distance >= length())
@@ -157,7 +157,7 @@ namespace parking
                 return driven_[i - 1] + shareOf(i, distance) * (driven_[i] - driven_[i - 1]);
             }
 
-            /** Distance from the begin to the place nearest to \e point, at most SEARCH_AHEAD beyond \e from. */
+            /** Distance from the start to the place nearest to \e point, at most SEARCH_AHEAD beyond \e from. */
             double nearest(const Eigen::Vector2d &point, double from, double &deviation) const
             {
                 double best = std::numeric_limits<double>::infinity();
@@ -209,25 +209,23 @@ namespace parking
             double lastCorner_{0.0};
         };
 
-        /** What roundCorners() made of a stretch. */
+        /** Result of roundCorners(). */
         struct RoundedCorners
         {
             Path path;               // drivable, in one direction
-            double deviation{0.0};   // metres, the farthest that the rear axle is from the stretch
-            double worstPlace{0.0};  // metres along the stretch since its begin where that is
+            double deviation{0.0};   // metres, maximum deviation of the rear axle from the stretch
+            double worstPlace{0.0};  // metres along the stretch to the place of that deviation
             bool following{false};   // whether the car could follow at all
         };
 
-        /** The way of a car at \e car, which is beside \e stretch by rounding or little more, onto it, and the rest of
-            it: two arcs over a metre from \e from metres on, then the stretch's own pieces.
-
-            \return nothing when there is no such way within the steering limit: the stretch is too short, or full lock
-            leaves no room to correct */
+        /** The path of a car near \e stretch onto it, and the rest of it: two arcs within a metre after \e from, then
+            the pieces of the stretch. \return nothing if there is no such path within the steering limit, because the
+            stretch is too short or full lock leaves no reserve for corrections */
         std::optional<Path> joinStretch(const Path &stretch, double from, const Pose &car, const Vehicle &vehicle)
         {
-            // The joint keeps to one piece where that is long enough: two arcs cannot imitate more.
+            // The joint stays within one piece if that is long enough: two arcs cannot follow more.
             const Path left = stretch.rest(from);
-            if (left.pieces.empty() || left.pieces.front().driven() < LEAST_JOIN)
+            if (left.pieces.empty() || left.pieces.front().driven() < MIN_JOIN)
                 return std::nullopt;
             const Path behind = left.rest(std::min(left.pieces.front().driven(), JOIN_LENGTH));
             std::optional<Path> path = biarc(car, behind.start, left.pieces.front().direction());
@@ -240,7 +238,7 @@ namespace parking
             return path;
         }
 
-        /** The way onto the stretch from \e driven metres on, when the car is on it as good as exactly. */
+        /** The path onto the stretch after \e driven metres, if the car is almost exactly on it. */
         std::optional<Path> joinHere(const Path &stretch, double driven, const Pose &car, double curvature,
                                      const Vehicle &vehicle)
         {
@@ -254,8 +252,8 @@ namespace parking
             return joinStretch(stretch, driven, car, vehicle);
         }
 
-        /** One simulated drive, aiming \e ahead metres in front. Directions of travel are headings here: a car in
-            reverse is a car driving forwards with its heading turned by half a turn and its curvature negated. */
+        /** One simulated drive with a target \e ahead metres in front. Headings are directions of travel here: in
+            reverse, the heading is turned by half a turn and the curvature negated. */
         RoundedCorners pursue(const Path &stretch, const Guide &guide, const Pose &start, const Vehicle &vehicle,
                               double steeringSlope, double ahead)
         {
@@ -290,11 +288,11 @@ namespace parking
                 const Eigen::Vector2d target = guide.at(along + ahead);
                 const Pose aim = relativeTo(car, {target.x(), target.y(), 0.0});
                 const double squared = aim.x * aim.x + aim.y * aim.y;
-                // A target behind the car asks for full lock, not for a gentle curve round it.
+                // A target behind the car requires full lock, not a gentle curve round it.
                 double wanted = aim.x <= 0.0 ? std::copysign(vehicle.maxSteeringAngle, aim.y)
                                              : vehicle.steeringAngle(2.0 * aim.y / squared);
                 wanted = std::clamp(wanted, -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
-                // The car stands at the begin of a stretch and may turn its wheels there.
+                // The car stands at the start of a stretch and may steer there.
                 const double change = count == 0 ? 2.0 * PI : steeringSlope * STEP;
                 const double before = vehicle.curvature(steering);
                 steering = std::clamp(wanted, steering - change, steering + change);
@@ -322,15 +320,17 @@ namespace parking
             }
             return result;
         }
-        /** Cuts the corners of \e stretch, pieces of one direction with turns on the spot between them but none at
-            either end, as a car has to.
+        /** Cuts the corners of \e stretch: pieces of one direction with turns on the spot between them, but not at its
+            ends.
 
             A simulated car drives it from \e start and aims at a point ahead (pure pursuit; R. C. Coulter,
-            "Implementation of the pure pursuit path tracking algorithm", CMU-RI-TR-92-01), with the steering limit and
-            no more than \e steeringSlope radians of steering per metre. Of several distances to the point ahead the one
-            with the least deviation is taken. Behind the last corner the car returns to the stretch: once it is within
-            5 mm and 0.3 degrees, two gentle arcs lead it there exactly, and what is left is driven as it is. Where
-            there is no room for that it ends beside the end of the stretch. */
+            "Implementation of the pure pursuit path tracking algorithm", CMU-RI-TR-92-01). It respects the steering
+            limit and \e steeringSlope radians of steering per metre. Among several distances to the point ahead, the
+            one with the smallest deviation is used.
+
+            After the last corner the car returns to the stretch. Within 5 mm and 0.3 degrees, two gentle arcs lead onto
+            it exactly, and the rest is driven unchanged. If there is not enough length for that, the path ends beside
+            the end of the stretch. */
         RoundedCorners roundCorners(const Path &stretch, const Pose &start, const Vehicle &vehicle,
                                     double steeringSlope)
         {
@@ -359,7 +359,7 @@ namespace parking
                 result_.path.start = start;
             }
 
-            /** Adds a stretch that begins where its first piece does, whatever the heading of the car. */
+            /** Adds a stretch that starts with its first piece, for any heading of the car. */
             void add(const Path &stretch)
             {
                 if (corners(stretch) > 0)
@@ -411,7 +411,7 @@ namespace parking
                 }
             }
 
-            /** Cuts the corners of \e stretch, or turns at the worst and tries both sides of it again. */
+            /** Cuts the corners of \e stretch, or turns at the worst corner and handles both sides of it separately. */
             void follow(const Path &stretch)
             {
                 const RoundedCorners rounded =
@@ -441,8 +441,8 @@ namespace parking
                 add(rest);
             }
 
-            /** The corner nearest to \e place metres from the begin; 0, which is none, for the begin itself when the
-                car is not there. */
+            /** The corner nearest to \e place metres from the start. 0, which is no corner, stands for the start itself
+                if the car is not there. */
             std::size_t worstCorner(const Path &stretch, double place) const
             {
                 std::size_t best = 0;
@@ -511,7 +511,7 @@ namespace parking
         Pose pose = path.start;
         for (const Stretch &stretch : merged.stretches())
         {
-            // Turns before the stretch are its heading; behind the last one they are the goal's.
+            // Turns before the stretch define its heading; those after the last stretch define that of the goal.
             Path part;
             bool driving = false;
             for (std::size_t i = stretch.first; i < stretch.last; ++i)

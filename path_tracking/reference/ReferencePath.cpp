@@ -7,7 +7,7 @@
 
 namespace parking
 {
-    /** Neighbouring pieces of continuous curvature. */
+    /** Adjacent pieces of continuous curvature. */
     struct ReferencePath::Run
     {
         std::size_t endNode;
@@ -20,7 +20,7 @@ namespace parking
             return knots.back().s - knots.front().s;
         }
 
-        /** Cuts off what is \e most metres from its end. */
+        /** Cuts off the last \e most metres. */
         void trimEnd(double most)
         {
             const double end = knots.back().s - most;
@@ -50,21 +50,20 @@ namespace parking
 
     namespace
     {
-        /** Nodes are no farther apart than this, so that projecting onto chords errs by less than 0.5 mm. */
+        /** Maximum distance of nodes, for an error of less than 0.5 mm when projecting onto chords. */
         constexpr double NODE_DISTANCE = 0.1;
-        /** Radians that the heading may be off behind a ramp. */
+        /** Radians, maximum heading error after a ramp. */
         constexpr double BLEND_YAW = 4e-4;
-        /** Curvatures that differ by less do not jump. */
+        /** Minimum difference of curvature that counts as a jump. */
         constexpr double SAME_CURVATURE = 1e-6;
-        /** Knots of the steering angle nearer to each other are one. */
+        /** Knots of the steering angle within this distance are merged. */
         constexpr double SAME_PLACE = 1e-9;
 
         /** Metres; a shorter stretch of another curvature turns the car by less than 0.05 degrees at full lock. */
         constexpr double SHORTEST_RUN = 0.002;
         constexpr double STUB_JUMP = 0.1;  // radians of steering
 
-        /** Joins what is too short to be worth steering for, and far off the steering angles round it, to its
-            neighbour. */
+        /** Merges a run that is too short, and whose steering angle differs from both neighbours, with one of them. */
         template <class Run>
         void dropStubs(std::vector<Run> &runs)
         {
@@ -111,7 +110,7 @@ namespace parking
             node.pose.yaw = wrapAngle(node.pose.yaw);
     }
 
-    /** Nodes close enough to each other, and the runs of continuous curvature that they make up. */
+    /** Creates nodes and the runs of continuous curvature that they form. */
     std::vector<ReferencePath::Run> ReferencePath::addNodes(const Pose &begin, const Stretch &stretch)
     {
         nodes_.push_back({begin, {}, nodes_.empty() ? 0.0 : nodes_.back().s});
@@ -145,11 +144,11 @@ namespace parking
         return runs;
     }
 
-    /** Ramps the steering angle over the jumps between \e runs, or stops there. */
+    /** Adds ramps of the steering angle at the jumps between \e runs, or ends the leg there. */
     void ReferencePath::addLegs(const std::vector<Run> &runs, std::size_t firstNode, int direction,
                                 const ReferenceParameters &parameters)
     {
-        // The part of the body that a wrong heading moves most.
+        // The part of the body that a heading error moves farthest.
         const double reach = std::max(vehicle_.wheelbase + vehicle_.frontOverhang, vehicle_.rearOverhang);
         ReferenceLeg leg;
         leg.direction = direction;
@@ -177,13 +176,13 @@ namespace parking
             const double curvatureJump = std::abs(next.first.curvature - current.last.endCurvature());
             double most =
                 std::min(0.5 * parameters.maxBlendLength, 4.0 * parameters.bodyTolerance / (reach * curvatureJump));
-            // A ramp of half length l that replaces clothoids leaves the heading off by the change of sharpness * l^2
+            // A ramp of half length l that replaces clothoids changes the heading by the difference of sharpness * l^2
             // / 2.
             if (const double kink = std::abs(next.first.sharpness - current.last.sharpness); kink > 0.0)
                 most = std::min(most, std::sqrt(2.0 * BLEND_YAW / kink));
             double left = std::min({most, 0.5 * runs[k].length(), current.last.driven()});
             double right = std::min({most, 0.5 * next.length(), next.first.driven()});
-            // A ramp that lies unevenly round its jump leaves the heading off by |jump| * |left - right| / 2.
+            // A ramp that is not centred on its jump changes the heading by |jump| * |left - right| / 2.
             const double uneven = 2.0 * BLEND_YAW / curvatureJump;
             left = std::min(left, right + uneven);
             right = std::min(right, left + uneven);

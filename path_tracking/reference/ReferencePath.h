@@ -10,95 +10,93 @@
 
 namespace parking
 {
-    /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
+    /** \brief A part of the path between two standstills: a stretch, or a part of it if the car stops to steer. */
     struct ReferenceLeg
     {
         int direction{1};                    ///< 1 forwards, -1 in reverse
-        double beginLength{0.0};             ///< metres since the begin of the path
-        double endLength{0.0};               ///< metres since the begin of the path
+        double beginLength{0.0};             ///< metres since the start of the path
+        double endLength{0.0};               ///< metres since the start of the path
         std::vector<SteeringKnot> steering;  ///< at least two, first at beginLength, last at endLength
 
-        /** \brief Metres driven on it. */
+        /** \brief Length in metres. */
         double length() const
         {
             return endLength - beginLength;
         }
     };
 
-    /** \brief A path made ready for being driven: legs between standstills, each with its steering angle.
+    /** \brief A path prepared for driving: legs between standstills, each with its steering angle.
 
-        What a Path does not say is how the wheels turn where its curvature jumps; that is added here:
-        - A leg ends where the direction changes; the car stands there.
+        A Path does not define how the car steers where the curvature jumps. This class adds it:
+        - A leg ends at each change of direction; the car stands there.
         - Along a clothoid the steering angle follows the curvature exactly.
-        - A jump of the curvature (from an arc to a line) is spread over a ramp round the jump. By symmetry the car
-          returns to the path's heading behind it; in the middle its heading is off by |jump| * ramp / 8. The ramp is as
-          long as bodyTolerance allows for the body's farthest point. If it needed a speed below minBlendSpeed, the leg
-          ends there instead and the car steers at standstill.
-        - Turns on the spot, which are sharp corners, are cut or shunted at (see makeDrivable()); the path without them
-          is the reference then. */
+        - A jump of the curvature (from an arc to a line) is spread over a ramp. By symmetry the car returns to the
+          heading of the path after it; halfway the heading is off by |jump| * ramp / 8. The ramp is as long as
+          bodyTolerance allows for the farthest point of the body. If it required a speed below minBlendSpeed, the leg
+          ends there and the car steers at standstill.
+        - Turns on the spot, which are sharp corners, are cut or shunted (see makeDrivable()). The resulting path is the
+          reference.*/
     class ReferencePath
     {
     public:
-        /** \brief Prepares \e path.
-
-            Throws parking::Error as makeDrivable() and validate() of the arguments do. */
+        /** \brief Prepares \e path. Throws parking::Error as makeDrivable() and validate() of the arguments do. */
         ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
 
-        /** \brief In the order of driving, at least one. */
+        /** \brief The legs in driving order, at least one. */
         const std::vector<ReferenceLeg> &legs() const
         {
             return legs_;
         }
 
-        /** \brief The path that is driven: the given one without its corners. */
+        /** \brief The driven path: the given one without its corners. */
         const Path &path() const
         {
             return drivable_.path;
         }
 
-        /** \brief The car that the path was prepared for. */
+        /** \brief The car for which the path was prepared. */
         const Vehicle &vehicle() const
         {
             return vehicle_;
         }
 
-        /** \brief Metres driven. */
+        /** \brief Metres driven in total. */
         double length() const
         {
             return nodes_.back().s;
         }
 
-        /** \brief The pose at \e s metres since the begin, on leg \e leg (cut to its ends); yaw wrapped. */
+        /** \brief The pose at \e s metres since the start, on leg \e leg (clamped to its ends); yaw wrapped. */
         Pose pose(std::size_t leg, double s) const;
 
-        /** \brief The steering angle at \e s on leg \e leg. */
+        /** \brief The steering angle in radians at \e s on leg \e leg. */
         double steering(std::size_t leg, double s) const
         {
             return steeringAt(legs_[leg].steering, s);
         }
 
-        /** \brief The last pose of the reference. It is the path's, up to what rounding corners left. */
+        /** \brief The last pose of the reference. It differs from the path's by the effect of rounded corners. */
         Pose end() const
         {
             return nodes_.back().pose;
         }
 
-        /** \brief The same, and what became of the corners of the given path. */
+        /** \brief The driven path with the numbers of its corners and shunts. */
         const DrivablePath &drivable() const
         {
             return drivable_;
         }
 
     private:
-        /** A place on the path and the piece that leads to it from the node before. */
+        /** A place on the path and the piece that leads to it from the previous node. */
         struct Node
         {
             Pose pose;
             PathPiece piece;
-            double s{0.0};  ///< metres since the begin
+            double s{0.0};  ///< metres since the start
         };
 
-        /** Nodes of a leg. */
+        /** Range of nodes of a leg. */
         struct NodeRange
         {
             std::size_t first;

@@ -14,14 +14,15 @@ namespace parking
     {
         constexpr double STEP = 0.02;         // seconds between two moments of a motion
         constexpr double WAY = 0.05;          // metres between two moments
-        constexpr double LIMIT_SLACK = 1e-6;  // share of a limit that rounding may take
+        constexpr double LIMIT_SLACK = 1e-6;  // share of a limit reserved for rounding
 
         void check(const TimedMotion &motion, const Vehicle &vehicle)
         {
             vehicle.validate();
             const std::string what = "timed motion: ";
             if (motion.knots.size() < 2)
-                throw Error(what + "it has " + std::to_string(motion.knots.size()) + " knots; two are the least");
+                throw Error(what + "it has " + std::to_string(motion.knots.size()) +
+                            " knots; at least two are required");
             if (!isFinite(motion.start))
                 throw Error(what + "its start is not finite");
             if (motion.knots.front().v != 0.0 || motion.knots.back().v != 0.0)
@@ -47,9 +48,9 @@ namespace parking
                 const MotionKnot &before = motion.knots[i - 1];
                 const double h = knot.t - before.t;
                 if (!(h > 0.0))
-                    throw Error(where + "time does not go on");
+                    throw Error(where + "the time does not increase");
                 if (before.v * knot.v < 0.0)
-                    throw Error(where + "the direction has changed without a rest");
+                    throw Error(where + "the direction changes without standstill");
                 if (std::abs(knot.v - before.v) > most(vehicle.maxAcceleration) * h + LIMIT_SLACK)
                     throw Error(where + "the acceleration is beyond the car's " +
                                 formatNumber(vehicle.maxAcceleration) + " m/s^2");
@@ -171,7 +172,7 @@ namespace parking
         return state;
     }
 
-    /** The first moment of a leg that is not before \e s, but not the very first. */
+    /** The first moment of a leg at or after \e s, except its very first. */
     const TimedState &TimedReference::behind(std::size_t leg, double s) const
     {
         const std::vector<TimedState> &moments = moments_[leg];

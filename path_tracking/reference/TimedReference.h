@@ -11,18 +11,18 @@
 
 namespace parking
 {
-    /** \brief A drive from one standstill to the next, in time. */
+    /** \brief A timed drive from one standstill to the next. */
     struct TimedLeg
     {
         int direction{1};         ///< 1 forwards, -1 in reverse
-        double beginLength{0.0};  ///< metres driven before it
-        double endLength{0.0};    ///< metres driven at its end
-        double standstill{0.0};   ///< seconds before it, during which the wheels turn
+        double beginLength{0.0};  ///< metres driven before the leg
+        double endLength{0.0};    ///< metres driven at the end of the leg
+        double standstill{0.0};   ///< seconds before the leg, in which the car steers
         double duration{0.0};     ///< seconds of motion
-        double steering{0.0};     ///< radians, of the wheels where it begins
+        double steering{0.0};     ///< radians, of the wheels at the start of the leg
     };
 
-    /** \brief Where the car should be at a moment. */
+    /** \brief Reference state of the car at an instant. */
     struct TimedState
     {
         double t{0.0};         ///< seconds since the motion on the leg began
@@ -32,82 +32,82 @@ namespace parking
         Pose pose;             ///< yaw wrapped
     };
 
-    /** \brief Where a pose is beside a leg. */
+    /** \brief Projection of a pose onto a leg. */
     struct PathProjection
     {
-        double s{0.0};         ///< metres since the begin of the path, of the nearest place
-        double lateral{0.0};   ///< metres that the pose is to the left of that place, seen along the car
-        double yaw{0.0};       ///< heading there minus the path's, radians
-        double beyond{0.0};    ///< metres that the pose is past that place along the leg; not 0 only at its ends
-        double distance{0.0};  ///< metres between pose and place; more than |lateral| beyond an end of the leg
+        double s{0.0};         ///< metres since the start of the path, of the nearest place
+        double lateral{0.0};   ///< metres of the pose to the left of that place, across the car
+        double yaw{0.0};       ///< radians, heading of the pose minus that of the path
+        double beyond{0.0};    ///< metres of the pose past that place along the leg; nonzero only at its ends
+        double distance{0.0};  ///< metres between pose and place; exceeds |lateral| beyond an end of the leg
     };
 
-    /** \brief What a TrackingController follows: legs between standstills, in time.
+    /** \brief Reference of a TrackingController: legs between standstills, in time.
 
-        Made from a path, which is then driven as fast as limits allow, or from a motion, which is in time already. Held
-       as moments no more than 5 cm apart, between which the car drives an arc. */
+        It is created from a path, driven as fast as the limits allow, or from a motion with its own timing. It consists
+        of states at most 5 cm apart, joined by arcs. */
     class TimedReference
     {
     public:
-        /** \brief Drives \e path: each leg with fastestDrive(), and before it the car stands as long as the steering
-           rate needs to turn the wheels to where the leg begins.
+        /** \brief Drives each leg of \e path with fastestDrive(). Before each leg the car stands while it steers to the
+            start of the leg.
 
             \param initialSteering radians, of the wheels at the start
-            Throws parking::Error for limits that are no positive finite numbers or an angle beyond the car's. */
+            Throws parking::Error for limits that are not positive finite numbers, or an angle beyond the car's. */
         TimedReference(const ReferencePath &path, const SpeedLimits &limits, double initialSteering = 0.0);
 
-        /** \brief Drives \e motion, whose legs lie between its instants at rest.
+        /** \brief Drives \e motion; its legs lie between its instants at rest.
 
-            Throws parking::Error for a motion that is not finite, never drives, does not begin or end at rest,
-            changes its direction without coming to rest, runs backwards in time, takes more than LONGEST_MOTION,
-            or is more than the car can do. */
+            Throws parking::Error for a motion that is not finite, never drives, does not begin or end at rest, or takes
+            more than LONGEST_MOTION. Throws also if its times decrease, its direction changes without rest, or it
+            exceeds the car's limits. */
         TimedReference(const TimedMotion &motion, const Vehicle &vehicle);
 
-        /** \brief In the order of driving, at least one. */
+        /** \brief The legs in driving order, at least one. */
         const std::vector<TimedLeg> &legs() const
         {
             return legs_;
         }
 
-        /** \brief The state \e time seconds after the begin of the motion on leg \e leg, cut to the leg. */
+        /** \brief The state \e time seconds after the motion on leg \e leg started, clamped to the leg. */
         TimedState at(std::size_t leg, double time) const;
 
-        /** \brief The steering angle at \e s metres on leg \e leg. */
+        /** \brief The steering angle in radians at \e s metres on leg \e leg. */
         double steering(std::size_t leg, double s) const;
 
-        /** \brief The place of leg \e leg nearest to \e pose.
+        /** \brief Projects \e pose onto the nearest place of leg \e leg.
 
-            \param from,to metres driven since the start: only places between are looked at */
+            \param from,to metres driven since the start, bounds of the search */
         PathProjection project(std::size_t leg, const Pose &pose, double from, double to) const;
 
-        /** \brief Where it ends, yaw wrapped. */
+        /** \brief The last pose; yaw wrapped. */
         Pose end() const;
 
-        /** \brief rad/s with which the wheels turn at standstill. */
+        /** \brief Steering rate at standstill in rad/s. */
         double steeringRate() const
         {
             return steeringRate_;
         }
 
-        /** \brief Seconds of standstill at the end, during which the wheels turn to finalSteering(). */
+        /** \brief Seconds of standstill at the end, in which the car steers to finalSteering(). */
         double finalStandstill() const
         {
             return finalStandstill_;
         }
 
-        /** \brief Radians, of the wheels at the very end. */
+        /** \brief Final steering angle in radians. */
         double finalSteering() const
         {
             return finalSteering_;
         }
 
-        /** \brief Metres between what was asked for and what is driven, where the path had sharp corners. */
+        /** \brief Maximum distance in metres between the given and the driven path at sharp corners. */
         double cornerDeviation() const
         {
             return cornerDeviation_;
         }
 
-        /** \brief Metres driven. */
+        /** \brief Metres driven in total. */
         double length() const
         {
             return legs_.back().endLength;

@@ -4,9 +4,9 @@
 
 namespace parking
 {
-    /** \brief What one step of the kinematic model does, seen from the pose at its beginning.
+    /** \brief Displacement of one step of the kinematic model, relative to the pose before it.
 
-        The displacement is given in the frame that the heading at the beginning is given in. */
+        Its frame is that of the given heading. */
     template <typename T>
     struct BicycleStep
     {

@@ -15,9 +15,9 @@ namespace parking
     namespace
     {
         constexpr double PLANT_STEP = 0.005;     // seconds of integration
-        constexpr double CHECK_DISTANCE = 0.02;  // metres that the body moves at most between two collision checks
-        /** Seconds after which the drive is stopped: this share of the timed path's duration, and more. */
-        constexpr double PATIENCE = 2.0, MORE_PATIENCE = 60.0;
+        constexpr double CHECK_DISTANCE = 0.02;  // metres, maximum movement of the body between two collision checks
+        /** Time limit of a drive: this multiple of the planned time, plus seconds. */
+        constexpr double TIME_RATIO = 2.0, EXTRA_TIME = 60.0;
 
         TimeStatistics timeStatistics(std::vector<double> values)
         {
@@ -32,7 +32,7 @@ namespace parking
             return {rank(0.5), rank(0.99), values.back()};
         }
 
-        /** Gathers the figures of a drive while it goes on. */
+        /** Computes the figures of a drive as it proceeds. */
         class Recorder
         {
         public:
@@ -56,7 +56,7 @@ namespace parking
                 checked_ = pose;
             }
 
-            /** One step of the plant, \e duration long, that ended in \e state; on leg \e leg near \e s. */
+            /** Records one step of the plant with \e duration, which ended in \e state, on leg \e leg near \e s. */
             void move(const Plant::State &state, double duration, std::size_t leg, double s, bool onLeg)
             {
                 const double driven = positionDistance(state.pose, last_.pose);
@@ -75,7 +75,7 @@ namespace parking
                     legTime_ += duration;
                     crossTrackTime_ += duration * std::abs(place.lateral);
                 }
-                // Checked when the next step might go beyond the distance.
+                // A check is due if the next step might exceed the distance.
                 if (clearance_ && bodyMotion(checked_, state.pose) + bodyMotion(before, state.pose) >= CHECK_DISTANCE)
                     check(state.pose);
             }
@@ -124,7 +124,7 @@ namespace parking
             }
 
         private:
-            /** Metres that no point of the body moves farther than. */
+            /** Upper bound of the movement of any point of the body, in metres. */
             double bodyMotion(const Pose &from, const Pose &to) const
             {
                 return positionDistance(to, from) + reach_ * std::abs(wrapAngle(to.yaw - from.yaw));
@@ -199,7 +199,7 @@ namespace parking
         recorder.begin(plant.state());
 
         const double period = parameters_.tracking.mpc.step;
-        const double patience = MORE_PATIENCE + PATIENCE * reference.duration();
+        const double timeLimit = EXTRA_TIME + TIME_RATIO * reference.duration();
         DriveResult result;
         double t = 0.0, trueS = 0.0;
         std::size_t trueLeg = 0;
@@ -216,7 +216,7 @@ namespace parking
         for (std::size_t count = 0;; ++count)
         {
             t = static_cast<double>(count) * period;
-            if (t > patience)
+            if (t > timeLimit)
                 controller.requestStop("the drive takes too long");
             DriveRecord record;
             record.t = t;
@@ -241,7 +241,7 @@ namespace parking
             }
             const bool over = controller.finished() && record.car.speed == 0.0;
             if (!over && monitor_ && !monitor_(record))
-                controller.requestStop("the monitor asked for it");
+                controller.requestStop("the monitor requested it");
             result.log.push_back(record);
             if (over)
                 break;

@@ -16,11 +16,11 @@
 
 namespace parking
 {
-    /** \brief How a drive is simulated. */
+    /** \brief Parameters of a simulated drive. */
     struct ClosedLoopParameters
     {
         TrackingParameters tracking;  ///< of the controller
-        Disturbances disturbances;    ///< what makes the simulated car differ from the controller's model
+        Disturbances disturbances;    ///< differences between the simulated car and the controller's model
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
@@ -30,15 +30,15 @@ namespace parking
     struct TimeStatistics
     {
         double median{0.0};  ///< in the unit of the values
-        double p99{0.0};     ///< likewise
-        double max{0.0};     ///< likewise
+        double p99{0.0};     ///< 99th percentile, in the unit of the values
+        double max{0.0};     ///< in the unit of the values
     };
 
-    /** \brief The paper's evaluation parameters of a drive ("Evaluation Parameters"; planning time is the planner's),
-        and what else is worth knowing.
+    /** \brief The paper's evaluation parameters of a drive ("Evaluation Parameters"), and further figures.
 
-        The paper leaves its averages undefined. Here: every average is over time, from the first command to the last
-        standstill, standstills included; accelerations and steering angles enter with their absolute value. */
+        The planner measures its own planning time. The paper leaves its averages undefined. Here every average is over
+        time, from the first command to the last standstill, standstills included. Accelerations and steering angles
+        enter with their absolute value. */
     struct Evaluation
     {
         double plannedLength{0.0};        ///< metres of the reference
@@ -48,82 +48,84 @@ namespace parking
         double meanAbsAcceleration{0.0};  ///< m/s^2, time average of |dv/dt|
         double meanAbsSteering{0.0};      ///< radians, time average of |delta|
         double maxCrossTrack{0.0};        ///< metres, largest distance of the rear axle from the reference's leg
-        double meanCrossTrack{0.0};       ///< metres, time average of it while on a leg
-        double maxPositionError{0.0};     ///< metres, largest distance from the nearest place of the leg, its ends too
+        double meanCrossTrack{0.0};       ///< metres, time average of the distance from the leg, while on a leg
+        /** Metres, largest distance from the nearest place of the leg, including its ends. */
+        double maxPositionError{0.0};
         double maxHeadingError{0.0};      ///< radians, against the heading at the nearest place of the leg
-        double finalPositionError{0.0};   ///< metres from the last pose of the path as it was given
-        double finalYawError{0.0};        ///< radians, absolute, likewise
+        double finalPositionError{0.0};   ///< metres from the last pose of the given path
+        double finalYawError{0.0};        ///< radians, absolute, from the last pose of the given path
         double finalReferenceError{0.0};  ///< metres from the last pose of the reference (differs by rounded corners)
-        double cornerDeviation{0.0};      ///< metres between path and reference, where it has sharp corners
-        /** Metres, least of the clearances along the drive; infinity without a clearance to ask. */
+        double cornerDeviation{0.0};      ///< metres between path and reference at sharp corners
+        /** Metres, minimum clearance along the drive; infinite without a clearance function. */
         double minClearance{std::numeric_limits<double>::infinity()};
         std::size_t collisions{0};      ///< checked poses in collision
-        std::size_t checkedPoses{0};    ///< 0 when there was nobody to ask
+        std::size_t checkedPoses{0};    ///< 0 without a clearance function
         std::size_t standstills{0};     ///< between legs
         TimeStatistics solveTime;       ///< seconds per optimisation
-        std::size_t solves{0};          ///< optimisations, one for each period on a leg
-        std::size_t solverFailures{0};  ///< of these, with an answer that was of no use
+        std::size_t solves{0};          ///< optimisations, one per period on a leg
+        std::size_t solverFailures{0};  ///< optimisations whose solution was unusable
     };
 
-    /** \brief One period of the drive. */
+    /** \brief Record of one period of a drive. */
     struct DriveRecord
     {
-        double t{0.0};             ///< seconds, begin of the period
-        Plant::State car;          ///< what it was really doing then
-        Measurement measurement;   ///< what the controller was told
-        TrackingStep control;      ///< what it made of it
+        double t{0.0};             ///< seconds, start of the period
+        Plant::State car;          ///< actual state at the start of the period
+        Measurement measurement;   ///< received by the controller
+        TrackingStep control;      ///< output of the controller
         double crossTrack{0.0};    ///< metres left of the reference, of the true pose
         double headingError{0.0};  ///< radians, of the true pose
     };
 
-    /** \brief What came of a drive. */
+    /** \brief Result of a drive. */
     struct DriveResult
     {
         bool arrived{false};              ///< standing at the end of the path, not after a safe stop
         std::string message;              ///< why it ended: "arrived", or the reason of the stop
-        Trajectory trajectory;            ///< the driven one, a point per period and one at the end
+        Trajectory trajectory;            ///< driven trajectory, one point per period and one at the end
         std::vector<DriveRecord> log;     ///< a record per period
-        std::vector<std::string> events;  ///< with their times: failures, stops
+        std::vector<std::string> events;  ///< failures and stops, with their times
         Evaluation evaluation;            ///< figures of the drive
-        ResponseParameters response;      ///< how the car follows its commands, as the controller has learnt it
+        ResponseParameters response;      ///< response of the car to commands, as learnt by the controller
     };
 
-    /** \brief Drives a simulated car along a path, or through a motion in time.
+    /** \brief Drives a simulated car along a path or a timed motion.
 
-        The controller runs once per period of the MPC, the plant is integrated in steps of 5 ms between, and collisions
-        are checked wherever the body has moved by 2 cm. A drive that takes a minute more than twice its planned time is
-        stopped. Equal inputs give equal results (but for the solver's times). */
+        The controller runs once per period of the MPC, and the plant is integrated in steps of 5 ms. Collisions are
+        checked each time the body has moved by 2 cm. A drive is stopped once it takes a minute more than twice its
+        planned time. Equal inputs give equal results, except for the solver's times. */
     class ClosedLoop
     {
     public:
-        /** \brief Signed distance in metres from the body at a pose to the nearest obstacle, positive only at a free
-            pose; a lower bound will do. */
+        /** \brief Signed distance in metres from the body at a pose to the nearest obstacle, or a lower bound of it. It
+            is positive only at a free pose. */
         using Clearance = std::function<double(const Pose &)>;
-        /** \brief Looks at each period; returning false asks for a safe stop (a changed map, for example). */
+        /** \brief Observer of each period. Returning false requests a safe stop, for example after a change of the
+            map. */
         using Monitor = std::function<bool(const DriveRecord &)>;
 
-        /** \brief Throws parking::Error when \e vehicle or \e parameters are not valid. */
+        /** \brief Throws parking::Error if \e vehicle or \e parameters are not valid. */
         ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters = {});
 
-        /** \brief Whom to ask how near obstacles are; empty: nothing is checked. */
+        /** \brief Sets the function that returns the distance to obstacles. If it is empty, nothing is checked. */
         void setClearance(Clearance clearance);
 
-        /** \brief Who may stop the drive; empty: nobody. */
+        /** \brief Sets the observer that may stop the drive; may be empty. */
         void setMonitor(Monitor monitor);
 
-        /** \brief Asked before every command of a drive (see TrackingController::Guard). */
+        /** \brief Sets the guard that checks each command (see TrackingController::Guard). */
         void setGuard(TrackingController::Guard guard);
 
         /** \brief Drives along \e path.
 
-            \param start where the car really stands; the begin of the path when absent
+            \param start actual pose of the car; if absent, the start of the path
             \param initialSteering radians, of the wheels
-            Throws parking::Error for a path that cannot be used or takes more than LONGEST_MOTION; what happens on
-            the way is in the result. */
+            Throws parking::Error for a path that cannot be used or takes more than LONGEST_MOTION. Failures during the
+            drive are in the result. */
         DriveResult drive(const Path &path, const std::optional<Pose> &start = std::nullopt,
                           double initialSteering = 0.0) const;
 
-        /** \brief Drives \e motion as it is timed; the wheels stand at first as they do there.
+        /** \brief Drives \e motion with its timing. The wheels start at its initial angle.
 
             Throws parking::Error for a motion that cannot be used (see TimedReference). */
         DriveResult follow(const TimedMotion &motion, const std::optional<Pose> &start = std::nullopt) const;

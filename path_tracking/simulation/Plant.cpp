@@ -89,7 +89,7 @@ namespace parking
 
     Command Plant::arriving(const Command &command, double duration)
     {
-        // Until the first command arrives the car stands as it did.
+        // Until the first command arrives the car stands.
         const auto late = static_cast<std::size_t>(std::lround(disturbances_.delay / duration));
         if (underWay_.size() < late)
             underWay_.resize(late, Command{0.0, servo_, true});
@@ -113,7 +113,7 @@ namespace parking
         const double servoBegin = servo_;
         for (int i = 1; i <= steps; ++i)
         {
-            // The servo moves evenly to its command, no faster than it can.
+            // The servo moves to its command at a constant rate, within its limit.
             const double share = static_cast<double>(i) / steps;
             const double wanted = servoBegin + share * (command.steering - servoBegin);
             const double most = vehicle_.maxSteeringRate * h;
@@ -136,7 +136,7 @@ namespace parking
                                 : asked;
             const double speedBefore = speed_;
             speed_ += acceleration_ * h;
-            // A held brake does not push the car beyond standstill.
+            // The brake cannot reverse the car.
             if (command.hold && (speedBefore == 0.0 || speedBefore * speed_ <= 0.0 || std::abs(speed_) < 1e-9))
             {
                 speed_ = 0.0;

@@ -11,37 +11,37 @@
 
 namespace parking
 {
-    /** \brief From one second of a drive to another. */
+    /** \brief A time span of a drive. */
     struct TimeSpan
     {
         double begin{0.0};  ///< seconds since the first command
-        double end{0.0};    ///< seconds, the first moment behind it
+        double end{0.0};    ///< seconds, the first instant after the span
 
-        /** \brief Does \e time, in seconds, lie in it? */
+        /** \brief Whether \e time, in seconds, lies in the span. */
         bool contains(double time) const
         {
             return time >= begin && time < end;
         }
     };
 
-    /** \brief What makes the simulated car differ from the controller's model. All zero: the nominal car. */
+    /** \brief Differences between the simulated car and the controller's model. With all zero the car is nominal. */
     struct Disturbances
     {
         double steeringLag{0.0};      ///< seconds, time constant of the wheels behind the servo
         double accelerationLag{0.0};  ///< seconds, time constant of the drive
         double positionNoise{0.0};    ///< metres, standard deviation of x and of y of each measurement
         double yawNoise{0.0};         ///< radians, standard deviation of each measurement
-        double speedBias{0.0};        ///< the car moves (1 + bias) times as fast as it measures
-        double steeringOffset{0.0};   ///< radians that the wheels stand farther left than measured
-        double wheelbaseError{0.0};   ///< share by which the wheelbase is longer than the controller believes
-        double brakeLoss{0.0};        ///< share by which the car slows down less than it is told to
-        double delay{0.0};            ///< seconds that a command takes to arrive, in whole periods of the controller
-        std::vector<TimeSpan> blind;  ///< when no pose is measured: it is not a number
-        std::vector<TimeSpan> stuck;  ///< when the wheels stay where they are
+        double speedBias{0.0};        ///< relative error: the car moves (1 + bias) times as fast as measured
+        double steeringOffset{0.0};   ///< radians, angle of the wheels to the left of the measured one
+        double wheelbaseError{0.0};   ///< relative excess of the wheelbase over the controller's
+        double brakeLoss{0.0};        ///< share of the commanded deceleration that is lost
+        double delay{0.0};  ///< seconds between sending and arrival of a command, rounded to periods of the controller
+        std::vector<TimeSpan> blind;  ///< when the measured pose is not a number
+        std::vector<TimeSpan> stuck;  ///< when the wheels do not move
         std::uint64_t seed{1};        ///< of the noise
 
-        /** \brief What the figures of docs/trajectories-and-tracking.md were measured with: 0.1 s of steering lag,
-           noise of 2 cm and 0.5 degrees, 5 % of speed bias. */
+        /** \brief Disturbances of the figures in docs/trajectories-and-tracking.md: 0.1 s of steering lag, noise of 2
+            cm and 0.5 degrees, 5 % of speed bias. */
         static Disturbances everyday(std::uint64_t seed);
 
         /** \brief Throws parking::Error naming the first field out of its range. */
@@ -55,7 +55,7 @@ namespace parking
         /** \param step seconds of integration, positive */
         Plant(const Vehicle &vehicle, const Disturbances &disturbances, const Pose &pose, double steering, double step);
 
-        /** \brief What the car is really doing. */
+        /** \brief Actual state of the car. */
         struct State
         {
             Pose pose;                 ///< of the rear axle; yaw wrapped
@@ -64,14 +64,13 @@ namespace parking
             double acceleration{0.0};  ///< m/s^2 over ground
         };
 
-        /** \brief At this moment. */
+        /** \brief The current state of the car. */
         State state() const;
 
-        /** \brief The next measurement; noise advances with every call. */
+        /** \brief Returns the next measurement; the noise advances with every call. */
         Measurement measure();
 
-        /** \brief Lets the car do as commanded for \e duration seconds; \e visit is called after each integration
-            step. */
+        /** \brief Executes \e command for \e duration seconds, and calls \e visit after each integration step. */
         void drive(const Command &command, double duration,
                    const std::function<void(double time, const State &)> &visit);
 

@@ -7,18 +7,18 @@
 
 namespace parking
 {
-    /** \brief Metres by which the body is enlarged when motions are checked, at most; covers what arcs leave of a
-        motion. Arcs of less than 2 cm leave less in proportion. */
+    /** \brief Maximum enlargement of the body in motion checks, in metres. It covers the deviation of arcs from the
+        motion, and decreases in proportion for arcs shorter than 2 cm. */
     constexpr double MOTION_CHECK_TOLERANCE = 2e-4;
 
-    /** \brief Where the body of a car that drives \e motion meets an obstacle: all of it swept, not sampled.
+    /** \brief The poses at which the body of a car that drives \e motion touches obstacles. The body is swept, not
+        sampled.
 
-        The motion is integrated in parts of 20 ms, each swept as the arc of its mean curvature, from which no point of
-        the body deviates by more than MOTION_CHECK_TOLERANCE. Near obstacles the parts are shorter, so that what the
-        arcs leave is less than the room. Nothing here is shared with the optimisation.
+        The motion is integrated in parts of 20 ms. Each part is swept as the arc of its mean curvature; no point of the
+        body deviates from that arc by more than MOTION_CHECK_TOLERANCE. Near obstacles the parts are shorter, so that
+        the deviation stays below the clearance. The check shares no code with the optimisation.
 
-        \param most places after which it stops looking
-        \return the poses at which the parts begin that are not free, in the checker's coordinates; empty when the
-        motion is free */
+        \param most number of collisions after which the check stops
+        \return the first pose of each colliding part, in the checker's coordinates; empty for a free motion */
     std::vector<Pose> collisionsOf(const TimedMotion &motion, const FootprintChecker &checker, std::size_t most);
 }  // namespace parking

@@ -12,18 +12,19 @@ namespace parking
 {
     namespace
     {
-        /** Of programs that begin with a solution, and of those that only get better phases. To end at 2e-5 s costs
-           0.02 % of the time that is driven, which only the last program is worth. */
+        /** Options of programs that start from a solution, and of those that refine phases. Ending at 2e-5 s costs 0.02
+            % of the driven time; only the last program uses a smaller barrier. */
         constexpr InteriorPointOptions AGAIN{3e-4, 2e-5}, REFINING{5e-5, 3e-6};
-        constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
-        constexpr double LEAST_ITERATIONS = 120.0;  // that may be done for any path, of programs of the first's size
-        constexpr double WORK_TO_FIND = 5.0;        // times as much work as long as nothing is found
-        constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
-        constexpr std::size_t MOST_HITS = 50;       // that are looked into; with more of them a motion has strayed
+        constexpr double MIN_WORK = 4.5e4;        // minimum budget for any path
+        constexpr double MIN_ITERATIONS = 120.0;  // minimum for any path, of programs of the size of the first
+        constexpr double WORK_TO_FIND = 5.0;      // factor of the budget until a motion is found
+        constexpr double NEAR_HIT = 0.05;         // metres within which obstacles may cause a collision
+        constexpr std::size_t MAX_HITS = 50;      // that are examined; a motion with more cannot serve as a guess
         constexpr std::size_t ANY_HITS = std::numeric_limits<std::size_t>::max();
-        constexpr double GOAL_TOLERANCE = 2e-3;  // metres and radians that integration may miss the goal by
-        constexpr int MOST_CORRECTIONS = 2;      // of where the intervals of a program lead
-    }                                            // namespace
+        constexpr double GOAL_TOLERANCE =
+            2e-3;                           // metres and radians, maximum error of the integrated motion at the goal
+        constexpr int MAX_CORRECTIONS = 2;  // of where the intervals of a program lead
+    }                                       // namespace
 
     Pose MotionWorld::toLocal(const Pose &pose) const
     {
@@ -34,10 +35,10 @@ namespace parking
 
     double MotionSolver::left() const
     {
-        return (spares_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
+        return (isBudgetLowered_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
     }
 
-    bool MotionSolver::mayGoOn() const
+    bool MotionSolver::mayContinue() const
     {
         return !isStopped_ && (budget_ == 0.0 || left() > 0.0);
     }
@@ -89,7 +90,7 @@ namespace parking
         InteriorPointOptions again = options;
         again.firstBarrier = AGAIN.firstBarrier;
         // Along hundreds of metres the small errors of collocation add up.
-        for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion, view); ++i)
+        for (int i = 0; i < MAX_CORRECTIONS && !reachesGoal(motion, view); ++i)
         {
             correctIntervals(problem);
             cost = minimize(problem, again);
@@ -103,20 +104,20 @@ namespace parking
         return outcome;
     }
 
-    /** Solves the program itself, and gives its nodes to \e problem. \return the cost */
+    /** Solves the program and writes its nodes to \e problem. \return the cost */
     std::optional<double> MotionSolver::minimize(MotionProblem &problem, InteriorPointOptions options)
     {
         MotionProgram program(problem);
         const double size = static_cast<double>(problem.nodes.size()) + static_cast<double>(problem.rows.size()) / 12.0;
         if (budget_ == 0.0)
-            budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
+            budget_ = std::max(MIN_WORK, MIN_ITERATIONS * size);
         const double affordable = std::max(0.0, left() / size);
-        options.mostIterations = std::min(options.mostIterations, 1 + static_cast<std::size_t>(affordable));
+        options.maxIterations = std::min(options.maxIterations, 1 + static_cast<std::size_t>(affordable));
         InteriorPointResult solved = solveMotion(program, options, world_.interrupted);
         work_ += size * static_cast<double>(solved.iterations);
         ++rounds_;
         iterations_ += solved.iterations;
-        reason_ = "no motion found that holds all limits";
+        reason_ = "no motion within all limits was found";
         if (solved.status == InteriorPointStatus::Interrupted)
             stop();
         if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)
@@ -130,7 +131,7 @@ namespace parking
         return isSamePose(endOf(motion, world_.checker.vehicle()), view.goal, GOAL_TOLERANCE);
     }
 
-    /** Does the motion reach the goal and touch nothing? Notes what it touches. */
+    /** Checks whether the motion reaches the goal without collision, and records the pieces it touches. */
     void MotionSolver::check(MotionOutcome &outcome)
     {
         const TimedMotion &motion = outcome.solution->motion;
@@ -140,9 +141,9 @@ namespace parking
         reason_ = "the motions found touch obstacles";
         const std::vector<Pose> hits = collisionsOf(motion, world_.checker, ANY_HITS);
         outcome.holds = hits.empty();
-        outcome.hasStrayed = hits.size() > MOST_HITS;
-        // All along the motion: what is in the way at its end should not wait for what is at its begin.
-        const std::size_t stride = 1 + hits.size() / MOST_HITS;
+        outcome.hasStrayed = hits.size() > MAX_HITS;
+        // Along the whole motion: collisions at its end should not wait for those at its start.
+        const std::size_t stride = 1 + hits.size() / MAX_HITS;
         for (std::size_t i = 0; i < hits.size(); i += stride)
             for (const std::size_t piece : piecesNear(world_.pieces, world_.body, world_.toLocal(hits[i]), NEAR_HIT))
                 if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())

@@ -17,96 +17,96 @@
 
 namespace parking
 {
-    /** \brief Where motions are looked for. All of it is referred to. */
+    /** \brief World of a motion program. All members are references. */
     struct MotionWorld
     {
-        const FootprintChecker &checker;          ///< says whether a motion holds
+        const FootprintChecker &checker;          ///< decides whether a motion is free
         const Vehicle &body;                      ///< enlarged by the checker's margin, with its limits
-        const std::vector<ConvexPiece> &pieces;   ///< the obstacles, in the coordinates of the checker's obstacles
-        const std::function<bool()> &interrupted; /**< asked again and again; may be empty */
+        const std::vector<ConvexPiece> &pieces;   ///< the obstacles, in the coordinates of the checker
+        const std::function<bool()> &interrupted; /**< polled during the search; may be empty */
 
-        /** \brief A pose in the coordinates of the pieces; its yaw is not wrapped. */
+        /** \brief Transforms a pose to the coordinates of the pieces. Its yaw is not wrapped. */
         Pose toLocal(const Pose &pose) const;
     };
 
-    /** \brief What of the world a program sees, and from where to where it leads. */
+    /** \brief Obstacles that a program considers, and the ends of its motion. */
     struct MotionView
     {
-        SeparationOptions separation;  ///< which obstacles, and how far from them
+        SeparationOptions separation;  ///< selects obstacles and their distance
         double spacing{0.2};           ///< metres between checkpoints
-        std::size_t path{0};           ///< which of several paths it follows
-        Pose start;                    ///< where the motion begins, in the coordinates of the checker
-        Pose goal;                     ///< where it has to end, likewise
+        std::size_t path{0};           ///< index among the given paths
+        Pose start;                    ///< first pose, in the coordinates of the checker
+        Pose goal;                     ///< required last pose, in the coordinates of the checker
     };
 
-    /** \brief A solution of a program. */
+    /** \brief Solution of a program. */
     struct MotionSolution
     {
         MotionProblem problem;  ///< with the nodes of the solution
         TimedMotion motion;     ///< in the coordinates of the checker
-        double cost;            ///< as the weights of the problem say
-        MotionView view;        ///< what solving it again depends on
+        double cost;            ///< by the weights of the problem
+        MotionView view;        ///< data for solving the program again
     };
 
-    /** \brief What solving a program came to. */
+    /** \brief Result of solving a program. */
     struct MotionOutcome
     {
-        std::optional<MotionSolution> solution;  ///< of the program, if it has one
-        bool holds{false};                       ///< does its motion reach the goal and touch nothing?
-        bool hasLearnt{false};                   ///< did that run into what was not known to be in the way?
-        bool hasStrayed{false};                  ///< was it in obstacles for so long that it is of no use as a guess?
+        std::optional<MotionSolution> solution;  ///< of the program; absent if there is none
+        bool holds{false};                       ///< whether the motion reaches the goal without collision
+        bool hasLearnt{false};                   ///< whether the motion touched obstacles that were not considered
+        bool hasStrayed{false};                  ///< whether the motion collides for too long to serve as a guess
     };
 
-    /** \brief Solves programs, one after another, and looks whether what they give holds: whether the motion,
-       integrated, reaches the goal and touches nothing.
+    /** \brief Solves programs one after another and checks their motions by integration: each must reach the goal
+        without collision.
 
-        What one motion runs into is kept in view for all that follow. Work is counted: iterations, each by the nodes of
-        its program and a twelfth of its rows, which is what takes the time (about 1.5 microseconds each). It is counted
-        instead of time, so that equal input gives equal output. */
+        Obstacles that a motion touches are considered by all later programs. The solver counts work instead of time, so
+        that equal inputs give equal outputs. The work of an iteration is the number of nodes plus a twelfth of the
+        number of rows, at about 1.5 microseconds per unit. */
     class MotionSolver
     {
     public:
-        /** \brief Where the car may be, by interval and fraction of it: the lines that keep obstacles apart are chosen
-            there. */
+        /** \brief Guessed pose by interval and fraction of it. Separating lines are chosen there. */
         using Guess = std::function<Pose(std::size_t, double)>;
 
-        /** \brief For motions in \e world, which is referred to. */
+        /** \brief Creates a solver for \e world, which must outlive it. */
         explicit MotionSolver(const MotionWorld &world) : world_(world)
         {
         }
 
-        /** \brief Solves a program with lines along \e guess. */
+        /** \brief Solves a program with separating lines along \e guess. */
         MotionOutcome solve(MotionProblem problem, const InteriorPointOptions &options, const Guess &guess,
                             const MotionView &view);
 
-        /** \brief Solves a solution's program again, with lines along that solution. */
+        /** \brief Solves the program of a solution again, with separating lines along that solution. */
         MotionOutcome solveAgain(const MotionSolution &solution);
 
-        /** \brief The same with nodes where accelerations and steering rates change: see endPhasesAtChanges(). */
+        /** \brief Solves the program of a solution again, with nodes where accelerations and steering rates change; see
+            endPhasesAtChanges(). */
         MotionOutcome refine(MotionSolution solution);
 
-        /** \brief From now on there is less work to be done: something that holds is there. */
-        void spareWork()
+        /** \brief Lowers the remaining budget of work; call it once a valid motion is available. */
+        void lowerBudget()
         {
-            spares_ = true;
+            isBudgetLowered_ = true;
         }
 
-        /** \brief Was it not interrupted, and is there work left to be done? */
-        bool mayGoOn() const;
+        /** \brief Whether work is left and the solver was not interrupted. */
+        bool mayContinue() const;
 
-        /** \brief Why the last program gave nothing that holds. */
+        /** \brief Reason why the last program gave no valid motion. */
         const std::string &reason() const
         {
             return reason_;
         }
 
-        /** \brief Programs that were solved. */
+        /** \brief Number of programs solved. */
         std::size_t rounds() const
         {
             return rounds_;
         }
 
-        /** \brief Iterations of all of them. */
+        /** \brief Number of iterations of all programs. */
         std::size_t iterations() const
         {
             return iterations_;
@@ -121,9 +121,9 @@ namespace parking
         void check(MotionOutcome &outcome);
 
         const MotionWorld &world_;
-        std::vector<std::size_t> touched_;  // pieces that motions ran into
+        std::vector<std::size_t> touched_;  // pieces that motions touched
         bool isStopped_{false};             // by the caller
-        bool spares_{false};
+        bool isBudgetLowered_{false};
         double work_{0.0}, budget_{0.0};
         std::string reason_;
         std::size_t rounds_{0}, iterations_{0};

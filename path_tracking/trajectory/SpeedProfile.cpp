@@ -11,10 +11,10 @@ namespace parking
 {
     namespace
     {
-        /** With less than this of any limit no drive ends within sensible time. */
-        constexpr double LEAST_LIMIT = 0.01;
+        /** Below this value of any limit, drives take unreasonably long. */
+        constexpr double MIN_LIMIT = 0.01;
 
-        /** Greatest squared speed between two knots. */
+        /** Maximum squared speed between two knots. */
         double capBetween(const SteeringKnot &a, const SteeringKnot &b, const SpeedLimits &limits,
                           const Vehicle &vehicle)
         {
@@ -43,8 +43,8 @@ namespace parking
         const Require require("speed limits");
         const auto check = [&require](const char *field, double value, const char *unit)
         {
-            require.that(std::isfinite(value) && value >= LEAST_LIMIT, field, value,
-                         "at least " + formatNumber(LEAST_LIMIT) + " " + unit);
+            require.that(std::isfinite(value) && value >= MIN_LIMIT, field, value,
+                         "at least " + formatNumber(MIN_LIMIT) + " " + unit);
         };
         check("speed", speed, "m/s");
         check("acceleration", acceleration, "m/s^2");

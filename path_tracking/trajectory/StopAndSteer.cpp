@@ -17,10 +17,10 @@ namespace parking
     {
         constexpr double CLOTHOID_GRID = 0.01;    // metres between two knots where the curvature changes
         constexpr double SAME_CURVATURE = 1e-9;   // 1/m
-        constexpr double CURVATURE_SLACK = 1e-3;  // share by which a path may exceed the car's curvature: rounding
+        constexpr double CURVATURE_SLACK = 1e-3;  // relative excess of a path's curvature over the car's: rounding
         constexpr double SHORTEST_PIECE = 1e-9;   // metres
 
-        /** What Vehicle::validate() asks for but the least limits: what is used of a car's may be less. */
+        /** Vehicle::validate() without its minimum limits, because shares of a car's limits may be lower. */
         void check(const Vehicle &vehicle)
         {
             const Require require("vehicle " + inQuotes(vehicle.name));
@@ -40,10 +40,10 @@ namespace parking
                 !std::isfinite(piece.turn))
                 throw Error(which + "is not finite");
             if (piece.turn != 0.0)
-                throw Error(which + "turns on the spot; no car can");
+                throw Error(which + "turns on the spot, which no car can do");
             const double most = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
             if (most * vehicle.minTurningRadius() > 1.0 + CURVATURE_SLACK)
-                throw Error(which + "has the curvature " + formatNumber(most) + " 1/m; the car turns with up to " +
+                throw Error(which + "has the curvature " + formatNumber(most) + " 1/m; the maximum of the car is " +
                             formatNumber(1.0 / vehicle.minTurningRadius()) + " 1/m");
         }
 
@@ -52,7 +52,7 @@ namespace parking
             return std::clamp(vehicle.steeringAngle(curvature), -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
         }
 
-        /** A way between two standstills. */
+        /** A path between two standstills. */
         struct Leg
         {
             int direction{1};
@@ -88,9 +88,9 @@ namespace parking
             check(piece, i, vehicle);
             if (piece.driven() <= SHORTEST_PIECE)
                 continue;
-            const bool goesOn = before != nullptr && before->direction() == piece.direction() &&
-                                std::abs(before->endCurvature() - piece.curvature) <= SAME_CURVATURE;
-            if (!goesOn)
+            const bool continues = before != nullptr && before->direction() == piece.direction() &&
+                                   std::abs(before->endCurvature() - piece.curvature) <= SAME_CURVATURE;
+            if (!continues)
                 legs.emplace_back();
             legs.back().add(piece, vehicle);
             before = &piece;

@@ -8,16 +8,16 @@
 
 namespace parking
 {
-    /** \brief Drives \e path exactly: at rest wherever the curvature jumps or the direction changes, while the wheels
-        turn, and as fast as the limits of \e vehicle allow in between. Always there, and slow.
+    /** \brief Drives \e path exactly. The car stops and steers at standstill at each jump of the curvature and each
+        cusp. Such a motion always exists, but it is slow.
 
-        Between two standstills the speed rises and falls at the full acceleration; along clothoids it stays low enough
-        for the steering rate.
+        Between two standstills the car accelerates and brakes at the limit of \e vehicle. Along clothoids its speed
+        respects the steering rate.
 
-        \param vehicle its limits may be shares of a car's, and so less than Vehicle::MIN_LIMIT; they are positive
-        \param initialSteering, finalSteering radians; without them the wheels are where the path begins and ends
-        Throws parking::Error for a path that turns on the spot, never drives, is not finite, turns tighter than the
-        car, or takes more than LONGEST_MOTION. */
+        \param vehicle its limits must be positive; as shares of a car's limits they may be below Vehicle::LEAST_LIMIT
+        \param initialSteering, finalSteering radians; if absent, the angles at the ends of the path
+        Throws parking::Error for a path that turns on the spot, never drives, is not finite, is tighter than the
+        turning radius, or takes more than LONGEST_MOTION. */
     TimedMotion stopAndSteer(const Path &path, const Vehicle &vehicle, std::optional<double> initialSteering,
                              std::optional<double> finalSteering);
 }  // namespace parking

@@ -7,9 +7,9 @@ namespace parking
 {
     namespace
     {
-        /** A speed below this, m/s, says nothing about the gear. */
+        /** Speeds below this, in m/s, do not define a gear. */
         constexpr double STANDING = 1e-6;
-        /** Seconds in which nothing happens that matters. */
+        /** Negligible duration in seconds. */
         constexpr double NO_TIME = 1e-9;
 
         MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part)
@@ -49,7 +49,7 @@ namespace parking
             knots.back() = {knots.back().t, v, steering};
     }
 
-    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double longest, double way,
+    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double longest, double length,
                     const std::function<bool(const MotionPart &)> &visit)
     {
         Pose pose = motion.start;
@@ -59,7 +59,7 @@ namespace parking
             const double h = b.t - a.t, driven = h * 0.5 * (std::abs(a.v) + std::abs(b.v));
             const double fastest = h * std::max(std::abs(a.v), std::abs(b.v));
             const double parts =
-                driven == 0.0 ? 1.0 : std::max({1.0, std::ceil(h / longest), std::ceil(fastest / way)});
+                driven == 0.0 ? 1.0 : std::max({1.0, std::ceil(h / longest), std::ceil(fastest / length)});
             MotionKnot from = a;
             for (double k = 1.0; k <= parts; k += 1.0)
             {

@@ -9,7 +9,7 @@
 
 namespace parking
 {
-    /** \brief What the car does at an instant: speed and steering angle. */
+    /** \brief Speed and steering angle at an instant. */
     struct MotionKnot
     {
         double t{0.0};         ///< seconds
@@ -17,20 +17,19 @@ namespace parking
         double steering{0.0};  ///< radians
     };
 
-    /** \brief Seconds that a motion or a reference to be driven lasts at most.
+    /** \brief Maximum duration of a motion or a reference, in seconds.
 
-        What takes longer is refused, for it would fill the memory with samples: 50 km at TPCAP's speed, 400 m of the
-        slowest car. */
+        Longer ones are rejected, because their samples would fill the memory. The limit corresponds to 50 km at TPCAP's
+        speed, or 400 m of the slowest car. */
     constexpr double LONGEST_MOTION = 2e4;
 
-    /** \brief A motion in exact form: where it starts, and its speed and steering angle over time, both linear between
-        two knots. What Path is without time.
+    /** \brief A motion in exact form: its start, and speed and steering angle over time, both linear between two knots.
+        It is the counterpart of Path with time.
 
-        Where the car is follows from the bicycle model: x' = v cos yaw, y' = v sin yaw, yaw' = v tan(steering) /
-        wheelbase. */
+        The pose follows from the bicycle model: x' = v cos yaw, y' = v sin yaw, yaw' = v tan(steering) / wheelbase. */
     struct TimedMotion
     {
-        Pose start;                     ///< where the car stands at the first knot
+        Pose start;                     ///< pose at the first knot
         std::vector<MotionKnot> knots;  ///< in order of time
 
         /** \brief Seconds from the first knot to the last; 0 without knots. */
@@ -39,20 +38,19 @@ namespace parking
             return knots.empty() ? 0.0 : knots.back().t - knots.front().t;
         }
 
-        /** \brief Adds a knot \e after seconds behind the last one, or changes that one when it is no time behind it.
-         */
+        /** \brief Adds a knot \e after seconds after the last one. If \e after is 0, it replaces the last knot. */
         void append(double after, double v, double steering);
     };
 
     /** \brief A short part of a motion along which speed and steering are linear in time. */
     struct MotionPart
     {
-        MotionKnot from,  ///< where it begins
-            to;           ///< where it ends
-        Pose before,      ///< at \e from; yaw not wrapped
-            after;        ///< at \e to; yaw not wrapped
+        MotionKnot from,  ///< where the part begins
+            to;           ///< where the part ends
+        Pose before,      ///< pose at \e from; yaw not wrapped
+            after;        ///< pose at \e to; yaw not wrapped
 
-        /** \brief Seconds. */
+        /** \brief Duration in seconds. */
         double duration() const
         {
             return to.t - from.t;
@@ -65,26 +63,30 @@ namespace parking
         }
     };
 
-    /** \brief Integrates \e motion (Runge-Kutta of fourth order) and calls \e visit with its parts in order, none of
-        them longer than \e step seconds or \e way metres, until it says no. Standstills are one part each.
+    /** \brief Integrates \e motion (fourth-order Runge-Kutta) and calls \e visit with its parts in order until it
+        returns false.
 
-        With parts of 0.02 s the poses are right to less than a micrometre. */
-    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double step, double way,
+        No part is longer than \e step seconds or \e length metres. Each standstill is one part. With parts of 0.02 s
+        the poses are accurate to a micrometre.
+
+        \return whether \e visit accepted all parts */
+    bool visitParts(const TimedMotion &motion, const Vehicle &vehicle, double step, double length,
                     const std::function<bool(const MotionPart &)> &visit);
 
-    /** \brief Where the motion ends, yaw not wrapped. */
+    /** \brief The last pose of the motion; yaw not wrapped. */
     Pose endOf(const TimedMotion &motion, const Vehicle &vehicle);
 
-    /** \brief What is left of the motion behind its first \e driven metres. */
+    /** \brief The remainder of the motion after its first \e driven metres. */
     TimedMotion restOf(const TimedMotion &motion, const Vehicle &vehicle, double driven);
 
-    /** \brief The motion as samples no more than \e step seconds apart, every knot among them.
+    /** \brief The motion as samples no more than \e step seconds apart, including every knot.
 
-        Acceleration and steering rate of a sample are those behind it, of the last one those before it. */
+        Acceleration and steering rate of a sample apply after it; those of the last sample apply before it. */
     Trajectory sample(const TimedMotion &motion, const Vehicle &vehicle, double step);
 
-    /** \brief What the Trajectory Planning Competition of Automated Parking (TPCAP) charges for a trajectory:
-        J = 100 T + 10 * effort + 10 * steering + 5 * gear changes. */
+    /** \brief Cost of a trajectory in the Trajectory Planning Competition of Automated Parking (TPCAP).
+
+        It is J = 100 T + 10 times the control effort + 10 times the steering integral + 5 times the gear changes. */
     struct TpcapCost
     {
         double time{0.0};              ///< T, seconds
@@ -92,7 +94,7 @@ namespace parking
         double steeringIntegral{0.0};  ///< integral of the squared steering angle
         std::size_t gearChanges{0};    ///< changes of direction
 
-        /** \brief J. */
+        /** \brief The total cost J. */
         double total() const
         {
             return 100.0 * time + 10.0 * controlEffort + 10.0 * steeringIntegral +

@@ -19,21 +19,21 @@ namespace parking
 {
     namespace
     {
-        constexpr double RANGE = 1.5;            // metres within which obstacles matter, in the first round
-        constexpr double ENOUGH_GAIN = 3e-3;     // share of the cost for which another round is worth its time
-        constexpr double PROMISING = 1.05;       // share of the best cost that improving a solution may make up for
-        constexpr double LIKELY = 1.02;          // share of it up to which driving along a path may cost at least
-        constexpr double ALIKE = 1.2;            // metres between paths for which one program is enough
-        constexpr double SAME_COST = 1e-3;       // share of the cost up to which two solutions count as one
-        constexpr std::size_t MOST_RETRIES = 2;  // of a motion that is quicker than what holds, but does not
-        constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
-        constexpr std::size_t MOST_DROPS = 4;    // such attempts
-        constexpr double LIMITS_LEFT = 2e-5;     // share of the limits that is left for rounding
-        constexpr double MOST_INTERVALS = 1e4;   // of a motion that is searched for: 8 kB and 0.2 ms each
-        /** Of programs that begin with a guess, and of those without a stretch: where that works it works soon. */
+        constexpr double RANGE = 1.5;           // metres within which obstacles are considered in the first round
+        constexpr double ENOUGH_GAIN = 3e-3;    // share of the cost that another round must gain
+        constexpr double PROMISING = 1.05;      // ratio to the best cost up to which a solution is improved
+        constexpr double LIKELY = 1.02;         // ratio to the best cost up to which the lower bound of a path is tried
+        constexpr double ALIKE = 1.2;           // metres between paths that share one program
+        constexpr double SAME_COST = 1e-3;      // relative difference of cost below which two solutions are equal
+        constexpr std::size_t MAX_RETRIES = 2;  // of an invalid motion that is faster than the best valid one
+        constexpr double LONGEST_DROPPED = 0.5;  // maximum length in metres of a stretch that is dropped
+        constexpr std::size_t MAX_DROPS = 4;     // attempts to drop stretches
+        constexpr double LIMITS_LEFT = 2e-5;     // share of the limits reserved for rounding
+        constexpr double MAX_INTERVALS = 1e4;    // of an optimised motion: 8 kB and 0.2 ms each
+        /** Options of programs that start from a guess, and of those without a stretch, which succeed soon or never. */
         constexpr InteriorPointOptions FROM_GUESS{}, DROPPING{5e-3, 2e-5, 40};
 
-        /** Compares at equal shares of the lengths. */
+        /** Whether two paths are near each other at equal shares of their lengths. */
         bool isNear(const Path &a, const Path &b)
         {
             constexpr double LONGEST_STEP = 2.0;  // metres between two comparisons
@@ -46,7 +46,7 @@ namespace parking
             return true;
         }
 
-        /** Do two paths change their direction equally often, with each stretch nowhere farther from the other's? */
+        /** Whether two paths have equal numbers of cusps and all of their stretches are near each other. */
         bool areAlike(const Path &a, const Path &b)
         {
             const std::vector<Stretch> ofA = a.stretches(), ofB = b.stretches();
@@ -118,7 +118,7 @@ namespace parking
         return {std::move(stretches), body_, step, options_.initialSteering, options_.finalSteering, options_.sharpest};
     }
 
-    /** One optimisation: programs are solved one after another until a motion is found and no longer gets better. */
+    /** One optimisation: solves programs one after another until a motion is found and improves no further. */
     class TrajectoryOptimizer::Search
     {
     public:
@@ -129,18 +129,18 @@ namespace parking
         {
         }
 
-        /** Looks for a motion near one of the paths \e which that costs less than \e limit, and for its path. */
+        /** Searches a motion near one of the paths \e which with a cost below \e limit, and the index of its path. */
         std::optional<MotionSolution> run(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
                                           double limit)
         {
             std::vector<Attempt> attempts;
             for (const std::size_t i : which)
                 attempts.emplace_back(owner_, world_, paths[i], i);
-            // What promises to be quick comes first, so that the rest need not be looked at.
+            // The path with the lowest bound comes first, so that the others may be skipped.
             std::stable_sort(attempts.begin(), attempts.end(),
-                             [](const Attempt &a, const Attempt &b) { return a.leastCost < b.leastCost; });
+                             [](const Attempt &a, const Attempt &b) { return a.minCost < b.minCost; });
             std::vector<MotionSolution> solutions;
-            for (std::size_t round = 0; round < owner_.options_.mostRounds && solutions.empty(); ++round)
+            for (std::size_t round = 0; round < owner_.options_.maxRounds && solutions.empty(); ++round)
                 solveEach(attempts, limit, solutions);
             std::stable_sort(solutions.begin(), solutions.end(),
                              [](const MotionSolution &a, const MotionSolution &b) { return a.cost < b.cost; });
@@ -152,14 +152,14 @@ namespace parking
             return found;
         }
 
-        /** How the search went. */
+        /** Statistics of the search. */
         const MotionSolver &solver() const
         {
             return solver_;
         }
 
     private:
-        /** A path, and what has been learnt about it where it could not be solved. */
+        /** A path, with the settings of its next program after failures. */
         struct Attempt
         {
             Attempt(const TrajectoryOptimizer &owner, const MotionWorld &world, const Path &from, std::size_t index)
@@ -173,17 +173,17 @@ namespace parking
                 view.separation.margin = owner.options_.margin;
                 view.separation.range = RANGE;
                 outline.emplace(owner.outline(guessesAlong(local, owner.body_), step));
-                leastCost = owner.options_.weights.time * outline->duration();
+                minCost = owner.options_.weights.time * outline->duration();
             }
 
             Path local;  // in the coordinates of the pieces
             MotionView view;
             double step;
             std::optional<MotionOutline> outline;
-            double leastCost;  // of driving along it if the wheels needed no time to turn
+            double minCost;  // lower bound: of driving along it with instant steering
         };
 
-        /** The directions that are driven one after another. */
+        /** The directions of travel of consecutive stretches. */
         static std::vector<int> directionsOf(const MotionProblem &problem)
         {
             std::vector<int> directions;
@@ -193,7 +193,7 @@ namespace parking
             return directions;
         }
 
-        static double leastCost(const std::vector<MotionSolution> &solutions)
+        static double minCost(const std::vector<MotionSolution> &solutions)
         {
             double least = solutions.front().cost;
             for (const MotionSolution &solution : solutions)
@@ -201,21 +201,21 @@ namespace parking
             return least;
         }
 
-        /** Solves a program near each path that may be the best, and is not like one that was solved. */
+        /** Solves a program near each path that may be the best and differs from the solved ones. */
         void solveEach(std::vector<Attempt> &attempts, double limit, std::vector<MotionSolution> &solutions)
         {
             std::vector<const Path *> solved;
             for (Attempt &attempt : attempts)
             {
-                if (!solver_.mayGoOn() ||
-                    attempt.leastCost > (solutions.empty() ? limit : LIKELY * leastCost(solutions)))
+                if (!solver_.mayContinue() ||
+                    attempt.minCost > (solutions.empty() ? limit : LIKELY * minCost(solutions)))
                     return;
                 if (std::any_of(solved.begin(), solved.end(),
                                 [&attempt](const Path *path) { return areAlike(*path, attempt.local); }))
                     continue;
-                if (auto solution = solve(attempt, solutions.empty() ? limit : leastCost(solutions)))
+                if (auto solution = solve(attempt, solutions.empty() ? limit : minCost(solutions)))
                 {
-                    solver_.spareWork();
+                    solver_.lowerBudget();
                     solved.push_back(&attempt.local);
                     solutions.push_back(std::move(*solution));
                 }
@@ -240,13 +240,14 @@ namespace parking
                 [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); }, view);
         }
 
-        /** A solution near a path; none leaves the attempt more careful than it was. What is cheaper than \e limit and
-            ran into something that was not known to be in the way is solved again from where it ended. */
+        /** A solution near a path; without one the attempt becomes more careful. If a motion below \e limit collides
+            with an obstacle that was not considered, the program is solved again from that motion. */
         std::optional<MotionSolution> solve(Attempt &attempt, double limit)
         {
             MotionOutcome found = solveAlong(*attempt.outline, attempt.view);
-            // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
-            // known already, more of everything. What had none needs more room.
+            // An invalid solution requires more obstacles: first those it touched, and if these were considered
+            // already, a larger range and finer checkpoints. Without a solution it needs a smaller margin and more
+            // nodes.
             if (found.holds || found.hasLearnt)
                 return rightOf(std::move(found), limit, [&] { return solveAlong(*attempt.outline, attempt.view); });
             attempt.view.spacing *= 0.5;
@@ -255,34 +256,34 @@ namespace parking
             else
             {
                 attempt.view.separation.margin *= 0.25;
-                attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MOST_INTERVALS);
+                attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MAX_INTERVALS);
                 attempt.outline.emplace(owner_.outline(guessesAlong(attempt.local, owner_.body_), attempt.step));
             }
             return std::nullopt;
         }
 
-        /** The solution that holds. What ran into something is solved again as often as it does so and something is
-            learnt from it: from where it ended, or, where that is of no use, \e anew. */
+        /** The valid solution. After a collision that adds obstacles, the program is solved again: from the last
+            motion, or with \e restart if that cannot serve as a guess. */
         std::optional<MotionSolution> rightOf(MotionOutcome found, double limit,
-                                              const std::function<MotionOutcome()> &anew)
+                                              const std::function<MotionOutcome()> &restart)
         {
-            for (std::size_t i = 0; i < MOST_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
+            for (std::size_t i = 0; i < MAX_RETRIES && !found.holds && found.hasLearnt && solver_.mayContinue(); ++i)
             {
                 if (found.solution->cost >= limit)
                     break;
-                found = found.hasStrayed ? anew() : solver_.solveAgain(*found.solution);
+                found = found.hasStrayed ? restart() : solver_.solveAgain(*found.solution);
             }
             return found.holds ? std::move(found.solution) : std::nullopt;
         }
 
-        /** Improves what was found, cheapest first, and gives the best. Of solutions that are the same only one. */
+        /** Improves the solutions found, cheapest first, and returns the best. Equal solutions are improved once. */
         std::optional<MotionSolution> improveBest(std::vector<MotionSolution> &solutions)
         {
             std::optional<MotionSolution> found;
-            std::vector<std::pair<double, std::vector<int>>> done;  // costs and directions, before they were improved
+            std::vector<std::pair<double, std::vector<int>>> done;  // costs and directions before the improvement
             for (MotionSolution &solution : solutions)
             {
-                if (found && (!solver_.mayGoOn() || solution.cost > PROMISING * found->cost))
+                if (found && (!solver_.mayContinue() || solution.cost > PROMISING * found->cost))
                     break;
                 const double cost = solution.cost;
                 std::vector<int> directions = directionsOf(solution.problem);
@@ -298,10 +299,10 @@ namespace parking
             return found;
         }
 
-        /** Chooses the lines anew along what was found, as often as that is worth it. */
+        /** Chooses the lines again along the solution while that gains enough. */
         void improve(MotionSolution &best)
         {
-            for (std::size_t round = 0; round < owner_.options_.mostRounds && solver_.mayGoOn(); ++round)
+            for (std::size_t round = 0; round < owner_.options_.maxRounds && solver_.mayContinue(); ++round)
             {
                 MotionOutcome found = solver_.solveAgain(best);
                 const double gain = found.holds ? best.cost - found.solution->cost : 0.0;
@@ -312,11 +313,11 @@ namespace parking
             }
         }
 
-        /** Tries to do without a stretch, again and again, the shortest first: a short one costs more time than its
-            way is worth, and the program can move a cusp, but never do away with it. */
+        /** Attempts to drop stretches, the shortest first. A short stretch costs more time than its length saves, and
+            the program can move a cusp but not remove it. */
         void dropStretches(MotionSolution &best)
         {
-            std::size_t tries = 0;
+            std::size_t attempts = 0;
             for (bool again = true; again;)
             {
                 again = false;
@@ -328,12 +329,12 @@ namespace parking
                                  { return stretches[a].length() < stretches[b].length(); });
                 for (const std::size_t index : order)
                 {
-                    if (tries >= MOST_DROPS || !solver_.mayGoOn() || stretches[index].length() > LONGEST_DROPPED)
+                    if (attempts >= MAX_DROPS || !solver_.mayContinue() || stretches[index].length() > LONGEST_DROPPED)
                         return;
                     const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.body_);
                     if (rest.empty())
                         return;
-                    ++tries;
+                    ++attempts;
                     MotionOutcome found = solveAlong(owner_.outline(rest, owner_.options_.step), best.view, DROPPING);
                     if (!found.holds || found.solution->cost >= best.cost)
                         continue;
@@ -348,7 +349,7 @@ namespace parking
         /** Moves nodes to where accelerations and steering rates change. */
         void refine(MotionSolution &best)
         {
-            if (!solver_.mayGoOn())
+            if (!solver_.mayContinue())
                 return;
             auto found = rightOf(solver_.refine(best), best.cost, [] { return MotionOutcome(); });
             if (found && found->cost < best.cost)
@@ -372,7 +373,7 @@ namespace parking
             throw Error("trajectory: there is no path");
         OptimizedTrajectory result;
         result.fallback = true;
-        // Within the limits that are asked for, but along the paths, which may need all of the steering angle.
+        // Within the requested limits, except that the paths may need the full steering angle.
         Vehicle used = body_;
         used.maxSteeringAngle = checker_.vehicle().maxSteeringAngle;
         std::vector<std::size_t> searched;  // of the paths
@@ -381,7 +382,7 @@ namespace parking
             TimedMotion motion = stopAndSteer(paths[i], used, options_.initialSteering, options_.finalSteering);
             if (!touchesNothing(checker_, paths[i]))
                 throw Error("trajectory: the path collides");
-            if (motion.duration() <= MOST_INTERVALS * options_.step)
+            if (motion.duration() <= MAX_INTERVALS * options_.step)
                 searched.push_back(i);
             if (i > 0 && costOf(motion) >= costOf(result.motion))
                 continue;
@@ -392,7 +393,7 @@ namespace parking
             result.reason = "interrupted";
         else if (searched.empty())
             result.reason =
-                "driving takes more than " + formatNumber(MOST_INTERVALS) + " steps, too long to look for better";
+                "driving takes more than " + formatNumber(MAX_INTERVALS) + " steps, the limit of the optimisation";
         else
             improve(paths, searched, interrupted, result);
         return result;
@@ -405,10 +406,10 @@ namespace parking
         auto found = search.run(paths, which, costOf(result.motion));
         result.rounds = search.solver().rounds();
         result.iterations = search.solver().iterations();
-        // Where even turning the wheels in no time would cost as much nothing was solved, and the solver has no reason.
+        // If even instant steering would cost as much, no program was solved, and the solver has no reason.
         const bool isPointless = !found && search.solver().reason().empty();
         if (isPointless || (found && costOf(found->motion) >= costOf(result.motion)))
-            result.reason = "stopping to steer is as quick";
+            result.reason = "stopping to steer is equally fast";
         else if (!found)
             result.reason = search.solver().reason();
         else

@@ -17,32 +17,33 @@ namespace parking
     class MotionOutline;
     class StretchGuess;
 
-    /** \brief What a TrajectoryOptimizer aims at. */
+    /** \brief Options of a TrajectoryOptimizer. */
     struct TrajectoryOptions
     {
-        MotionWeights weights{1.0, 0.0, 0.0, 0.01};  ///< by default time, and a little for what is near
-        double margin{0.002};  ///< metres that body and obstacles keep beyond the checker's margin
-        /** Metres beyond the checker's margin that they keep where that costs little: a metre driven in touch is worth
-            weights.nearness, one at half of it a quarter. */
+        MotionWeights weights{1.0, 0.0, 0.0, 0.01};  ///< by default time, and a small proximity cost
+        double margin{0.002};  ///< metres, minimum distance to obstacles beyond the checker's margin
+        /** Metres beyond the checker's margin, kept where that costs little. A metre driven in contact costs
+            weights.nearness, at half of this distance a quarter. */
         double preferredClearance{0.1};
-        double step{0.3};  ///< seconds between two nodes, about
+        double step{0.3};  ///< seconds between two nodes, approximately
 
-        // What of the car's limits is used, so that a controller has something left to correct with. In (0, 1].
-        double speedShare{1.0};         ///< of the speed limit
-        double accelerationShare{1.0};  ///< of the acceleration limit, along the path
-        double steeringShare{1.0};      ///< of the steering angle; where the path needs more the motion may fail
-        double steeringRateShare{1.0};  ///< of the steering rate
+        // Used shares of the car's limits; a controller needs the rest for corrections.
+        double speedShare{1.0};         ///< used share of the speed limit, in (0, 1]
+        double accelerationShare{1.0};  ///< used share of the acceleration limit along the path, in (0, 1]
+        /** Used share of the steering angle, in (0, 1]; the motion may fail where the path needs more. */
+        double steeringShare{1.0};
+        double steeringRateShare{1.0};  ///< used share of the steering rate, in (0, 1]
 
-        /** Whether nodes lie where the motion changes from one limit to another, instead of being spread evenly: 0.3 %
-            quicker. A motion that is to be driven by a controller should do without: where it changes more gently
-            there is more to correct with, and errors of noise and lags are up to three times smaller. */
+        /** Whether nodes are placed where the motion changes from one limit to another, instead of evenly. The motion
+            is then 0.3 % faster. Disable it for motions that a controller follows: smoother changes leave more control
+            margin, and errors by noise and lags are up to three times smaller. */
         bool sharpest{true};
 
-        std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
-        std::optional<double> finalSteering{0.0};    ///< likewise at the end
-        std::size_t mostRounds{6};                   ///< attempts near a path, and improvements of a motion, at most
+        std::optional<double> initialSteering{0.0};  ///< radians at the start; if absent, the initial steering is free
+        std::optional<double> finalSteering{0.0};    ///< radians at the end; if absent, the final steering is free
+        std::size_t maxRounds{6};                    ///< maximum number of attempts along a path, and of improvements
 
-        /** \brief Weights of the Trajectory Planning Competition of Automated Parking, per 100. */
+        /** \brief Weights of the Trajectory Planning Competition of Automated Parking, divided by 100. */
         static MotionWeights tpcapWeights()
         {
             return {1.0, 0.1, 0.1, 0.0};
@@ -52,34 +53,34 @@ namespace parking
         void validate() const;
     };
 
-    /** \brief What optimising a trajectory came to. */
+    /** \brief Result of optimising a trajectory. */
     struct OptimizedTrajectory
     {
-        TimedMotion motion;         ///< collision free, within the limits
-        bool fallback{false};       ///< the motion is stopAndSteer()'s
-        std::string reason;         ///< why there is none better; empty otherwise
-        std::size_t path{0};        ///< which of the given paths it was made from
-        std::size_t rounds{0};      ///< programs that were solved
-        std::size_t iterations{0};  ///< of the interior point method, all rounds
+        TimedMotion motion;         ///< collision-free, within the limits
+        bool fallback{false};       ///< whether the motion is that of stopAndSteer()
+        std::string reason;         ///< why no better motion was found; empty otherwise
+        std::size_t path{0};        ///< index of the path from which it was optimised
+        std::size_t rounds{0};      ///< number of programs solved
+        std::size_t iterations{0};  ///< of the interior point method, over all programs
     };
 
-    /** \brief From a path to the fastest trajectory nearby.
+    /** \brief Optimises the fastest trajectory near a path.
 
-        The path is cut at its cusps. Each stretch gets nodes in time, from a guess that drives along the path; between
-        two stretches, and at the ends, the car stands as long as it turns its wheels. A nonlinear program (see
-        MotionProgram) moves all of this to where it takes the least time: cusps too, and the wheels turn while the car
-        rolls. Obstacles are convex pieces, each kept apart by one line per checkpoint, chosen beforehand (see
-        SeparationPlan). The result is then integrated and swept by other code (see collisionsOf()); if it touches
-        anything there is another round with more checkpoints, and after the last one the path is driven as it is (see
-        stopAndSteer()).
+        The path is split at its cusps. Each stretch receives nodes in time, from a guess that drives along the path.
+        Between two stretches and at the ends the car stands while it steers. A nonlinear program (see MotionProgram)
+        moves all nodes to minimise the time. It also moves the cusps, and steers while the car drives.
+
+        Obstacles are convex pieces. One line per checkpoint, chosen beforehand, separates each from the body (see
+        SeparationPlan). Independent code integrates and sweeps the result (see collisionsOf()). After a collision the
+        program is solved again with more checkpoints. After the last attempt the result is that of stopAndSteer().
 
         Deterministic. Const calls from several threads are safe. */
     class TrajectoryOptimizer
     {
     public:
-        /** \brief \param checker is referred to: the world, the car and the margin that holds for everybody
+        /** \param checker provides world, car and margin, and must outlive the optimiser
 
-            Throws parking::Error for invalid options and a car that is not valid. */
+            Throws parking::Error for invalid options or an invalid car. */
         explicit TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options = {});
 
         /** \brief The options as given. */
@@ -90,17 +91,18 @@ namespace parking
 
         /** \brief The best motion found near \e path, in the coordinates of the checker.
 
-            Never slower than stopping to steer, when time is all that counts.
+            If time is the only cost, it is never slower than stopAndSteer().
 
-            \param interrupted asked about every millisecond; once it says yes the path is driven as it is, unless the
-            result is there already; may be empty
+            \param interrupted polled about every millisecond; may be empty. Once it returns true, the result is the
+            best motion found so far, otherwise that of stopAndSteer().
             Throws parking::Error for a path that no car can drive, that collides, or that takes more than
-            LONGEST_MOTION when the car stops to steer. */
+            LONGEST_MOTION with stops to steer. */
         OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
 
-        /** \brief The best motion found near any of several paths, from the same pose to the same pose.
+        /** \brief The best motion found near any of several paths between the same poses.
 
-            One program is solved near each; the best, and those that nearly are, are then improved. */
+            One program is solved along each path. The best solutions, and those of nearly equal cost, are then
+            improved. */
         OptimizedTrajectory optimizeBest(const std::vector<Path> &paths,
                                          const std::function<bool()> &interrupted = {}) const;
 
@@ -114,7 +116,7 @@ namespace parking
 
         const FootprintChecker &checker_;
         TrajectoryOptions options_;
-        Vehicle body_;  // enlarged by the checker's margin, with what may be used of its limits
+        Vehicle body_;  // enlarged by the checker's margin, with the used shares of its limits
         std::vector<ConvexPiece> pieces_;
     };
 }  // namespace parking

@@ -1,4 +1,4 @@
-"""Plans how a car gets into a parking slot: Improved A* without OMPL.
+"""Plans the path of a car into a parking slot: Improved A* without OMPL.
 
     import improved_astar as ia
 
@@ -7,7 +7,7 @@
     print(result.status, result.length, result.path.shape)
     result.plot('path.png')
 
-Poses are (x, y, yaw) of the middle of the rear axle: metres, radians, counter-clockwise from +x.
+Poses are (x, y, yaw) of the midpoint of the rear axle, in metres and radians counter-clockwise from +x.
 """
 from ._core import (Drive, Error, ParkingPlan, ParkingPlanner, Result, Scenario, Slot, Vehicle, Verdict, __version__,
                     _parameter_table, check, plan, plan_batch, vehicles)
@@ -20,7 +20,7 @@ __all__ = ['Animation', 'Drive', 'Error', 'ParkingPlan', 'ParkingPlanner', 'Resu
 
 
 def parameters():
-    """The planner's parameters: {name: (default, allowed values, unit, meaning)}."""
+    """Returns the parameters of the planner: {name: (default, allowed values, unit, meaning)}."""
     return {row[0]: tuple(row[1:]) for row in _parameter_table()}
 
 

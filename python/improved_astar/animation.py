@@ -1,4 +1,4 @@
-"""Drives as pages that move, for notebooks and browsers."""
+"""Animated drives for notebooks and browsers."""
 import html
 import numbers
 
@@ -6,14 +6,14 @@ from ._core import Error
 
 
 class Animation:
-    """A page that shows a drive: in notebooks by itself, elsewhere after save()."""
+    """A page that animates a drive: notebooks display it, save() writes it to a file."""
 
     def __init__(self, page, height):
         self.page = page
         self.height = height
 
     def save(self, path):
-        """Writes the page, which needs nothing else, to a file."""
+        """Writes the page to a self-contained HTML file and returns its path."""
         with open(path, 'w', encoding='utf-8') as stream:
             stream.write(self.page)
         return path
@@ -24,9 +24,10 @@ class Animation:
 
 
 def animate(self, title=None, height=760):
-    """The drive of a result along its trajectory: a page with the car on the map, speed, acceleration and steering.
+    """Returns the Animation of a result: the car on the map, and plots of speed, acceleration and steering.
 
-    title: plain text; height: pixels in a notebook. Returns an Animation.
+    title : plain text
+    height : pixels in a notebook
     """
     if not isinstance(height, numbers.Real):
         raise Error(f'height must be a number of pixels, not {height!r}')

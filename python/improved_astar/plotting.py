@@ -1,38 +1,38 @@
-"""Pictures with matplotlib, which is imported when the first one is drawn."""
+"""Pictures drawn with matplotlib, which is imported on first use."""
 import math
 import numbers
 
 from ._core import Error
 
-# Those of the C++ side's pictures (svg_colour in SvgMap.h), with darker obstacles.
+# The colours of the C++ pictures (svg_colour in SvgMap.h), with darker obstacles.
 FORWARD, REVERSE, START, GOAL, CAR = '#2563eb', '#ea580c', '#334155', '#059669', '#1e3a8a'
 FREE, OBSTACLE, UNKNOWN, OUTSIDE = '#ffffff', '#64748b', '#e3cf9b', '#e1e6ed'
 
-# What a legend lists, in this order.
+# The entries of a legend in their order.
 LABELS = ['forwards', 'reverse', 'car along the path', 'start', 'goal', 'other goal', 'middle of the rear axle', 'slot', 'obstacle',
           'unknown', 'outside of the map']
 
 
 class _View:
-    """What the axes will show, and what of it has been named."""
+    """The visible region of the axes, and the labels used so far."""
 
     def __init__(self, axes, scenario, states):
         self.axes = axes
         self.named = set()
-        room = scenario.vehicle.length + 1.0
+        margin = scenario.vehicle.length + 1.0
         poses = [scenario.start, *scenario.goals, *states[:, :3]]
         x, y = [pose[0] for pose in poses], [pose[1] for pose in poses]
-        self.low, self.high = (min(x) - room, min(y) - room), (max(x) + room, max(y) + room)
+        self.low, self.high = (min(x) - margin, min(y) - margin), (max(x) + margin, max(y) + margin)
 
     def name(self, label, seen=True):
-        """The label of an artist: only the first one of its kind that can be seen has one."""
+        """Returns the label for the first visible artist of its kind, and None for others."""
         if not seen or label in self.named:
             return None
         self.named.add(label)
         return label
 
     def name_colour(self, label, colour):
-        """Names what no single artist stands for."""
+        """Adds a legend entry for a colour without an artist of its own."""
         if label not in self.named:
             self.axes.plot([], [], linestyle='none', marker='s', markersize=8, color=colour, markeredgecolor=START,
                            markeredgewidth=0.4, label=self.name(label))
@@ -56,7 +56,7 @@ def _draw_grid(view, scenario):
     place = Affine2D().scale(scenario.resolution).rotate(yaw).translate(x, y)
     axes.imshow(grid, origin='lower', extent=(0, columns, 0, rows), cmap=colors.ListedColormap([FREE, OBSTACLE, UNKNOWN]),
                 vmin=0, vmax=2, interpolation='nearest', transform=place + axes.transData, zorder=0)
-    # The cells near the view, and of these the ones whose middles are in it.
+    # The cells near the view, and among these the ones with their centre in it.
     seen = place.inverted().transform(view.corners())
     first = numpy.clip(numpy.floor(seen.min(axis=0)), 0, (columns, rows)).astype(int)
     end = numpy.clip(numpy.ceil(seen.max(axis=0)), 0, (columns, rows)).astype(int)
@@ -89,7 +89,7 @@ def _draw_world(view, scenario):
 
 
 def _draw_cars(view, scenario):
-    """The car where it stands and where it shall stand; other goals are mostly the same place the other way round."""
+    """Draws the car at its start and its first goal, and a mark for each other goal."""
     from matplotlib.patches import Polygon
     for pose, colour, label in ((scenario.start, START, 'start'), (scenario.goals[0], GOAL, 'goal')):
         body = Polygon(scenario.vehicle.footprint(pose), closed=True, facecolor=colour + '55', edgecolor=colour, linewidth=1.2,
@@ -126,7 +126,7 @@ def _draw_path(view, path):
 
 
 def _draw_legend(axes, beside):
-    """What is named, beside the axes or in a corner of them."""
+    """Draws the legend of the named artists, beside the axes or in a corner of them."""
     handles, labels = axes.get_legend_handles_labels()
     named = dict(zip(labels, handles))
     order = [label for label in LABELS if label in named] + [label for label in named if label not in LABELS]
@@ -135,10 +135,11 @@ def _draw_legend(axes, beside):
 
 
 def plot(self, path=None, axes=None, footprints=1.5):
-    """Draws a result: obstacles, slot, path, the car along it, and a legend of all that is seen.
+    """Draws a result with obstacles, slot, path, outlines of the car and a legend, and returns the axes.
 
-    path: of a picture to write (.png, .svg, .pdf); axes: matplotlib's, to draw into;
-    footprints: metres between outlines of the car, 0 for none. Returns the axes.
+    path : picture file to write (.png, .svg, .pdf)
+    axes : matplotlib axes for the drawing
+    footprints : metres between outlines of the car; 0 for none
     """
     from matplotlib.figure import Figure
     if not isinstance(footprints, numbers.Real):

@@ -1,4 +1,4 @@
-"""Results of parking_benchmark as pandas data frames; pandas is imported when the first is read."""
+"""Results of parking_benchmark as pandas data frames; pandas is imported on first use."""
 import os
 import pathlib
 import re
@@ -8,7 +8,7 @@ from ._core import Error
 
 
 def _progress(connection):
-    """id of a run -> its better and better solutions: (seconds, cost)."""
+    """Returns a dict from the id of a run to its improving solutions: (seconds, cost)."""
     found = {}
     if 'best_cost' in [row[1] for row in connection.execute('PRAGMA table_info(progress)')]:
         for run, time, cost in connection.execute('SELECT runid, time, best_cost FROM progress '
@@ -48,10 +48,12 @@ def _runs_of(file):
 
 
 def read_runs(path):
-    """The runs of a comparison, one row each, as a pandas DataFrame.
+    """Returns the runs of a comparison as a pandas DataFrame with one row per run.
 
-    path: a database, or the folder that parking_benchmark wrote, with its benchmark.db. Columns: problem, planner, those of
-    docs/benchmark-reference.md, parameters, and progress: a list of (seconds, cost).
+    path : a database, or the output folder of parking_benchmark with its benchmark.db
+
+    The columns are problem, planner, those of docs/benchmark-reference.md, parameters, and progress: a list of
+    (seconds, cost).
     """
     import pandas
     try:

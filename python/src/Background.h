@@ -8,14 +8,14 @@
 
 namespace parking::python
 {
-    /** \brief Runs \e work in a thread of its own, so that who waits for it may go away before it ends: it must own all
-        that it touches, and nothing of Python's. Where no thread can be had, it is done before this returns. */
+    /** \brief Runs \e work in a new thread, which may outlive the caller. It must own its data and must not use Python.
+        If no thread is available, it runs before this function returns. */
     void runInBackground(std::function<void()> work);
 
-    /** \brief Waits until all such work has ended; called before Python ends, without its lock. */
+    /** \brief Waits until all background work has ended. It is called before Python ends, without its lock. */
     void finishBackgroundWork();
 
-    /** \brief As runInBackground(), with a result or what was thrown. */
+    /** \brief Runs \e work as runInBackground() does, and returns its result or exception. */
     template <class Result>
     std::shared_future<Result> resultInBackground(std::function<Result()> work)
     {
@@ -25,7 +25,7 @@ namespace parking::python
         return result;
     }
 
-    /** \brief Waits for a result and asks every 2 ms whether to go on; \return has it come? */
+    /** \brief Waits for a result and polls \e interrupted every 2 ms. \return whether the result is available */
     template <class Result>
     bool await(const std::shared_future<Result> &result, const std::function<bool()> &interrupted)
     {

@@ -16,9 +16,9 @@ namespace parking::python
     void addParking(pybind11::module_ &module);    ///< adds ParkingPlan, ParkingPlanner
     void addReferee(pybind11::module_ &module);    ///< adds Verdict, check()
 
-    /** \brief What both kinds of result show of their paths. */
+    /** \brief Adds the properties of Drive, the common base of both kinds of results. */
     void addPathProperties(pybind11::class_<PathHandle, std::shared_ptr<PathHandle>> &type);
 
-    /** \brief The scenario that a Python object is; throws parking::Error naming \e field otherwise. */
+    /** \brief Returns the scenario of a Python object. Throws parking::Error naming \e field for other objects. */
     ScenarioPointer scenarioFrom(const pybind11::handle &value, const std::string &field);
 }  // namespace parking::python

@@ -21,7 +21,7 @@ namespace parking::python
                 const auto &handle = py::cast<const PathHandle &>(path);
                 if (!handle.hasPath())
                     return {};
-                // In the scenario that is asked about, which may lie elsewhere.
+                // In the given scenario, which may have another offset.
                 const Scenario &own = handle.scenario().scenario();
                 pieces = handle.path();
                 const Eigen::Vector2d between = own.worldOffset - problem.worldOffset;
@@ -40,16 +40,15 @@ namespace parking::python
 
     void addReferee(py::module_ &module)
     {
-        py::class_<Verdict>(module, "Verdict", "What check() found. True when nothing is wrong.")
-            .def_readonly("valid", &Verdict::valid)
+        py::class_<Verdict>(module, "Verdict", "Result of check(). It is True for a valid path.")
+            .def_readonly("valid", &Verdict::valid, "Whether the path is valid.")
             .def_property_readonly(
                 "fault", [](const Verdict &self) { return toString(self.fault); },
-                "none, no_path, not_finite, wrong_start, misses_goal, not_drivable or collision: the "
-                "first one found")
-            .def_readonly("reason", &Verdict::reason, "What is wrong and where, in a few words; empty when valid.")
-            .def_readonly("states", &Verdict::states, "Poses tested.")
-            .def_readonly("collisions", &Verdict::collisions, "Of those in collision.")
-            .def_readonly("max_curvature", &Verdict::maxCurvature, "1/m")
+                "First fault found: none, no_path, not_finite, wrong_start, misses_goal, not_drivable or collision.")
+            .def_readonly("reason", &Verdict::reason, "Description and place of the fault; empty for a valid path.")
+            .def_readonly("states", &Verdict::states, "Number of tested poses.")
+            .def_readonly("collisions", &Verdict::collisions, "Number of tested poses in collision.")
+            .def_readonly("max_curvature", &Verdict::maxCurvature, "Maximum curvature of the path in 1/m.")
             .def("__bool__", [](const Verdict &self) { return self.valid; })
             .def("__repr__",
                  [](const Verdict &self) {
@@ -57,8 +56,8 @@ namespace parking::python
                                        : "Verdict(" + toString(self.fault) + ": " + self.reason + ")";
                  });
         module.def("check", &checkPath, py::arg("scenario"), py::arg("path"), py::arg("exact") = true,
-                   R"(The referee's word on a path, by code that shares nothing with the planner: does it lead from the
-start to a goal, can the car steer like that, and does its body stay clear, looked at every 5 mm?
+                   R"(Checks a path with code that is independent of the planner. The path must lead from the start
+to a goal within the turning radius of the car. Its body must be free of collision, tested every 5 mm.
 
 path : a Result, a ParkingPlan, or an array of n rows (x, y, yaw, ...), joined by arcs
 exact : False for a path that only ends near a goal

@@ -152,7 +152,7 @@ namespace parking::python
 
     QuickestTrajectory ParkingHandle::optimize(const std::function<bool()> &interrupted) const
     {
-        // From the arcs: the optimiser makes steering continuous by itself, and finds better ways than the smoother's.
+        // From the arcs: the optimiser makes steering continuous by itself, and finds better paths than the smoother's.
         ScenarioPlan plan;
         plan.outcome = hasPath() ? search::PlanOutcome::Solved : search::PlanOutcome::Timeout;
         plan.path = plan_.arcs;

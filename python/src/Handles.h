@@ -18,12 +18,12 @@
 // Data of the Python objects. Everything is immutable or computed once, on first use.
 namespace parking::python
 {
-    /** \brief A scenario, and the planner with its distance field, which is made when something is first planned or
-        asked: by then the interpreter's lock must have been given back. */
+    /** \brief A scenario and its planner with the distance field. The planner is created on first use; release the
+        interpreter's lock before that. */
     class ScenarioHandle
     {
     public:
-        /** \brief Nothing is built yet. */
+        /** \brief Stores the scenario; the planner is created later. */
         explicit ScenarioHandle(Scenario scenario) : scenario_(std::make_shared<const Scenario>(std::move(scenario)))
         {
         }
@@ -34,16 +34,16 @@ namespace parking::python
             return *scenario_;
         }
 
-        /** \brief The planner; null when \e interrupted, asked every 2 ms while it is made, says so. */
+        /** \brief The planner; null once \e interrupted, polled every 2 ms during its creation, returns true. */
         const ScenarioPlanner *planner(const std::function<bool()> &interrupted) const;
 
-        /** \brief Made on the first call, which takes its time; from several threads it is made once. */
+        /** \brief The planner, created on the first call. Several threads may call it at once. */
         const ScenarioPlanner &planner() const
         {
             return *planner({});
         }
 
-        /** \brief Seconds that making the planner took; 0 before. */
+        /** \brief Seconds spent creating the planner; 0 if it was not created yet. */
         double loadingTime() const;
 
     private:
@@ -62,20 +62,20 @@ namespace parking::python
         mutable std::shared_future<LoadedPointer> loaded_;
     };
 
-    /** \brief Shared by all results, which outlive the Python object of their scenario. */
+    /** \brief A scenario shared by all results, which may outlive its Python object. */
     using ScenarioPointer = std::shared_ptr<const ScenarioHandle>;
 
-    /** \brief A trajectory in world coordinates, with what is known of it. */
+    /** \brief A trajectory in world coordinates with its properties. */
     struct TrajectoryHandle
     {
         Trajectory points;     ///< in world coordinates, 0.05 s apart
         double duration{0.0};  ///< seconds
-        bool fallback{false};  ///< is it the path with standstills?
-        std::string reason;    ///< why there is none better; empty otherwise
+        bool fallback{false};  ///< whether the car stops to steer along the path
+        std::string reason;    ///< why no better trajectory was found; empty otherwise
         TpcapCost cost;        ///< TPCAP's
     };
 
-    /** \brief What plan() and ParkingPlanner return have in common: a path in a scenario. */
+    /** \brief Common base of the results of plan() and ParkingPlanner: a path in a scenario. */
     class PathHandle
     {
     public:
@@ -87,18 +87,18 @@ namespace parking::python
             return *scenario_;
         }
 
-        /** \brief The same, to be kept. */
+        /** \brief The scenario of the path, as a shared pointer. */
         const ScenarioPointer &scenarioPointer() const
         {
             return scenario_;
         }
 
-        /** \brief Is there a path, exact or not? */
+        /** \brief Whether there is a path, exact or not. */
         bool hasPath() const
         {
             return hasPath_;
         }
-        /** \brief In the scenario's local coordinates. */
+        /** \brief The path in the scenario's local coordinates. */
         const Path &path() const
         {
             return path_;
@@ -107,10 +107,10 @@ namespace parking::python
         /** \brief Rows x, y, yaw, direction, curvature, in world coordinates. */
         const std::vector<double> &rows() const;
 
-        /** \brief Metres, made when first asked for. */
+        /** \brief Minimum clearance in metres, computed on first use. */
         double clearance() const;
 
-        /** \brief Optimised when first asked for. \param interrupted as for TrajectoryOptimizer::optimize() */
+        /** \brief The trajectory, optimised on first use. \param interrupted as for TrajectoryOptimizer::optimize() */
         const TrajectoryHandle &trajectory(const std::function<bool()> &interrupted) const;
 
     protected:
@@ -122,10 +122,10 @@ namespace parking::python
         /** \brief The path in states at most 0.1 m apart, in local coordinates; empty without a path. */
         virtual SampledPath states() const = 0;
 
-        /** \brief Metres between body (or circle) and obstacles, the least along the path. */
+        /** \brief Minimum distance in metres between body (or circle) and obstacles along the path. */
         virtual double measureClearance() const = 0;
 
-        /** \brief What trajectory() keeps, in local coordinates. */
+        /** \brief Computes the result of trajectory(), in local coordinates. */
         virtual QuickestTrajectory optimize(const std::function<bool()> &interrupted) const = 0;
 
         ScenarioPointer scenario_;  ///< never null
@@ -140,20 +140,20 @@ namespace parking::python
         mutable std::optional<TrajectoryHandle> trajectory_;
     };
 
-    /** \brief What plan() came to. */
+    /** \brief Result of plan(). */
     class PlanHandle final : public PathHandle
     {
     public:
-        /** \brief \param parameters that were planned with */
+        /** \param parameters of the planner */
         PlanHandle(ScenarioPointer scenario, ScenarioPlan plan, PlannerParameters parameters);
 
-        /** \brief What the search came to. */
+        /** \brief The result of the search. */
         const ScenarioPlan &plan() const
         {
             return plan_;
         }
 
-        /** \brief What was planned with. */
+        /** \brief The parameters of the planner. */
         const PlannerParameters &parameters() const
         {
             return parameters_;
@@ -168,14 +168,14 @@ namespace parking::python
         PlannerParameters parameters_;
     };
 
-    /** \brief What a ParkingPlanner came to. */
+    /** \brief Result of a ParkingPlanner. */
     class ParkingHandle final : public PathHandle
     {
     public:
-        /** \brief \e plan was made in \e scenario. */
+        /** \brief Stores \e plan, which was made in \e scenario. */
         ParkingHandle(ScenarioPointer scenario, ParkingPlan plan);
 
-        /** \brief What planning came to, stage by stage. */
+        /** \brief The result of planning, stage by stage. */
         const ParkingPlan &plan() const
         {
             return plan_;

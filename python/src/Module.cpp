@@ -24,10 +24,10 @@ PYBIND11_MODULE(_core, module)
     namespace py = pybind11;
     py::options options;
     options.disable_function_signatures();  // the stubs have them
-    module.doc() = "The planner's core. Use the package improved_astar.";
+    module.doc() = "Extension module of the package improved_astar. Use the package instead.";
     module.attr("__version__") = PARKING_VERSION;
     py::register_exception<parking::Error>(module, "Error", PyExc_ValueError).doc() =
-        "Invalid value or file: one line that names the field or file and a valid alternative.";
+        "Invalid value or file. The one-line message names the field or file and a valid alternative.";
     py::register_exception_translator(
         [](std::exception_ptr thrown)
         {
@@ -50,13 +50,13 @@ PYBIND11_MODULE(_core, module)
     parking::python::addPlans(module);
     parking::python::addParking(module);
     parking::python::addReferee(module);
-    // For the project's programs in Python, which so read, write and complain as those in C++ do.
+    // For the project's Python programs, so that they read, write and report errors as those in C++ do.
     module.def("_read_file", [](const std::filesystem::path &file, std::size_t limit)
                { return py::bytes(parking::readFile(file.string(), limit)); });
     module.def("_write_file", [](const std::filesystem::path &file, const std::string &content)
                { parking::writeFileAtomically(file.string(), content); });
     module.def("_unknown_name", &parking::unknownName);
-    // At once: within the first plan it would take its time, and be left half read by Ctrl-C.
+    // Imported here: the first plan would wait for it, and Ctrl-C could interrupt the import.
     py::module_::import("numpy");
     py::module_::import("atexit").attr("register")(
         py::cpp_function(&parking::python::finishBackgroundWork, py::call_guard<py::gil_scoped_release>()));

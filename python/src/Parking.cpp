@@ -28,7 +28,7 @@ namespace parking::python
             using P = PlanningParameters;
             static const std::array<std::pair<const char *, double P::*>, 7> NUMBERS{
                 {{"time_limit", &P::timeLimit},
-                 {"gap_worth", &P::gapWorth},
+                 {"gap_worth", &P::gapWeight},
                  {"radius_factor", &P::radiusFactor},
                  {"gear_change_penalty", &P::gearChangePenalty},
                  {"steering_change_penalty", &P::steeringChangePenalty},
@@ -62,7 +62,7 @@ namespace parking::python
                     const auto way = std::find(WAYS.begin(), WAYS.end(), py::cast<std::string>(py::str(value)));
                     if (way == WAYS.end())
                         throw Error(unknownName("value for way_in", py::cast<std::string>(py::str(value)), WAYS));
-                    parameters.wayIn = static_cast<WayIn>(way - WAYS.begin());
+                    parameters.entryMode = static_cast<EntryMode>(way - WAYS.begin());
                 }
                 else if (name != "aisle_width")
                 {
@@ -81,7 +81,7 @@ namespace parking::python
         {
             const ScenarioPointer scenario = scenarioFrom(problem, "scenario");
             PlanningParameters parameters = self.parameters();
-            // Reading a large map for each gap cannot be interrupted: who waits goes away from it.
+            // Reading a large map for each gap cannot be interrupted: this thread stops waiting for it instead.
             const auto stop = std::make_shared<std::atomic<bool>>(false);
             parameters.interrupted = [stop]
             {
@@ -109,7 +109,7 @@ namespace parking::python
         {
             const ParkingPlan &plan = self.plan();
             py::dict result;
-            result["tries"] = plan.tries;
+            result["tries"] = plan.attempts;
             result["expanded"] = plan.search.expanded;
             result["generated"] = plan.search.generated;
             result["planning_time"] = plan.planningTime;
@@ -122,18 +122,16 @@ namespace parking::python
     void addParking(py::module_ &module)
     {
         py::class_<ParkingHandle, PathHandle, std::shared_ptr<ParkingHandle>>(
-            module, "ParkingPlan",
-            "What a ParkingPlanner came to. True when "
-            "a way was found.")
-            .def_property_readonly("found", &ParkingHandle::hasPath)
+            module, "ParkingPlan", "Result of ParkingPlanner.plan(). It is True if a path was found.")
+            .def_property_readonly("found", &ParkingHandle::hasPath, "Whether a path was found.")
             .def_property_readonly(
                 "status",
                 [](const ParkingHandle &self)
                 { return self.hasPath() ? std::string("found") : toString(self.plan().failure); },
-                "found, or why not: no_path, invalid_start, invalid_goal")
+                "Status: found, no_path, invalid_start or invalid_goal.")
             .def_property_readonly(
                 "message", [](const ParkingHandle &self) { return self.plan().message; },
-                "One line: what was planned, or why nothing was.")
+                "One line: the kind of plan, or the reason of the failure.")
             .def_property_readonly(
                 "goal",
                 [](const ParkingHandle &self) -> py::object
@@ -142,37 +140,48 @@ namespace parking::python
                         return py::none();
                     return toPython(self.scenario().scenario().toWorld(self.plan().goal));
                 },
-                "The one that was chosen; None without a path.")
+                "Chosen goal pose; None without a path.")
             .def_property_readonly(
                 "gap", [](const ParkingHandle &self) { return self.plan().gap; },
-                "Metres kept all round the car while planning.")
+                "Gap kept around the car while planning, in metres.")
             .def_property_readonly(
                 "turning_radius", [](const ParkingHandle &self) { return self.plan().turningRadius; },
-                "Metres, planned with.")
+                "Planned turning radius in metres.")
             .def_property_readonly(
                 "cost",
                 [](const ParkingHandle &self)
                 { return self.hasPath() ? self.plan().cost : std::numeric_limits<double>::infinity(); },
-                "Metres and penalties; infinite without a path.")
+                "Cost in metres: length and penalties; infinite without a path.")
             .def_property_readonly(
                 "is_smooth", [](const ParkingHandle &self) { return !self.plan().smooth.path.pieces.empty(); },
-                "Is the curvature of the path continuous between its cusps?")
+                "Whether the curvature of the path is continuous between its cusps.")
             .def_property_readonly("statistics", &statisticsOf,
-                                   "A dict: tries, expanded, generated; planning_time, smoothing_time and "
-                                   "map_loading_time in seconds.")
+                                   "Statistics of the attempts, a dict: tries, expanded, generated; planning_time, "
+                                   "smoothing_time and map_loading_time in seconds.")
             .def("__bool__", &ParkingHandle::hasPath)
             .def("__repr__", [](const ParkingHandle &self) { return "ParkingPlan(" + self.plan().message + ")"; });
 
-        py::class_<ParkingPlanner>(module, "ParkingPlanner", R"(Plans ways into slots: a constructed manoeuvre where one
-fits, the search for the rest, as much room round the car as there is, and curvature without jumps.
+        py::class_<ParkingPlanner>(module, "ParkingPlanner",
+                                   R"(Plans paths into slots with as much clearance as possible and a
+continuous curvature. It constructs a manoeuvre if one fits, and searches the rest of the path.
 
-ParkingPlanner(tight=True) is for slots that leave centimetres. Other parameters: time_limit (seconds), gaps (metres kept
-round the car, tried in turn), gap_worth, expansions_per_gap, radius_factor, gear_change_penalty, steering_change_penalty,
-preferred_clearance (metres), clearance_cost, way_in (searched, one_sweep, in_stretches), aisle_width (metres),
-smooth (bool).)")
+tight : whether to use parameters for slots with centimetres of clearance
+time_limit : seconds for all attempts
+gaps : list of metres kept around the car, one per attempt
+gap_worth : metres, weight of the gap against the cost of a path
+expansions_per_gap : limit of expansions per attempt
+radius_factor : planned turning radius over the minimum of the car
+gear_change_penalty : metres, cost of a change of direction
+steering_change_penalty : metres, cost of steering to full lock
+preferred_clearance : metres kept from obstacles where that is cheap
+clearance_cost : extra cost per metre driven closer than that
+way_in : method of planning the slot entry: searched, one_sweep or in_stretches
+aisle_width : metres
+smooth : whether to make the curvature continuous)")
             .def(py::init([](bool tight, const py::kwargs &values)
                           { return ParkingPlanner(planningParameters(tight, values)); }),
                  py::arg("tight") = false)
-            .def("plan", &plan, py::arg("scenario"), "Plans from the start of a scenario to its goal or slot.");
+            .def("plan", &plan, py::arg("scenario"),
+                 "Plans from the start of a scenario to its goal or slot and returns a ParkingPlan.");
     }
 }  // namespace parking::python

@@ -1,4 +1,4 @@
-// What Result and ParkingPlan have in common.
+// Properties of Drive, the common base of Result and ParkingPlan.
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "parking_geometry/Error.h"
 #include "python/src/Bindings.h"
@@ -79,17 +79,19 @@ namespace parking::python
 
     void addPathProperties(py::class_<PathHandle, std::shared_ptr<PathHandle>> &type)
     {
-        type.def_property_readonly("scenario", [](const PathHandle &self)
-                                   { return std::const_pointer_cast<ScenarioHandle>(self.scenarioPointer()); });
+        type.def_property_readonly(
+            "scenario",
+            [](const PathHandle &self) { return std::const_pointer_cast<ScenarioHandle>(self.scenarioPointer()); },
+            "The Scenario of the path.");
         type.def_property_readonly("path", &pathOf,
-                                   "An n x 5 array, states no more than 0.1 m apart: x, y, yaw, direction (1 or -1), "
-                                   "curvature (1/m) with which the state is reached. No rows without a path.");
+                                   "States of the path at most 0.1 m apart, an n x 5 array: x, y, yaw, direction (1 "
+                                   "or -1) and curvature (1/m) of the arc to the state. No rows without a path.");
         type.def_property_readonly("pieces", &piecesOf,
-                                   "The exact path: an m x 4 array of curvature where the piece begins (1/m), signed "
-                                   "length (m), sharpness (1/m^2), turn on the spot (rad).");
+                                   "Pieces of the exact path, an m x 4 array: initial curvature (1/m), signed length "
+                                   "(m), sharpness (1/m^2), turn on the spot (rad).");
         type.def_property_readonly(
             "length", [](const PathHandle &self) { return orNone(self.hasPath(), self.path().length()); },
-            "Metres driven; None without a path.");
+            "Length of the path in metres; None without a path.");
         type.def_property_readonly(
             "cusps",
             [](const PathHandle &self) -> py::object
@@ -98,7 +100,7 @@ namespace parking::python
                     return py::none();
                 return py::int_(self.path().cusps());
             },
-            "Changes of direction; None without a path.");
+            "Number of changes of direction; None without a path.");
         type.def_property_readonly(
             "clearance",
             [](const PathHandle &self)
@@ -111,12 +113,13 @@ namespace parking::python
                 }
                 return orNone(self.hasPath(), least);
             },
-            "Metres between the car and the obstacles along the path, the least; None without a path.");
+            "Minimum distance between the car and obstacles along the path in metres; None without a path.");
         type.def_property_readonly("trajectory", &trajectoryOf,
-                                   "The quickest drive near the path: an n x 8 array of t, x, y, yaw, v, acceleration, "
-                                   "steering, steering rate, at most 0.05 s apart. Optimised on first use.");
+                                   "Quickest trajectory near the path, at most 0.05 s between rows: an n x 8 array of "
+                                   "t, x, y, yaw, v, acceleration, steering, steering rate. Computed on first use.");
         type.def_property_readonly(
-            "duration", [](const PathHandle &self) { return optimized(self).duration; }, "Seconds of the trajectory.");
+            "duration", [](const PathHandle &self) { return optimized(self).duration; },
+            "Duration of the trajectory in seconds.");
         type.def_property_readonly(
             "trajectory_info",
             [](const PathHandle &self)
@@ -130,7 +133,8 @@ namespace parking::python
                 info["gear_changes"] = found.cost.gearChanges;
                 return info;
             },
-            "A dict: duration, fallback (it stops to steer), reason for that, tpcap_cost, gear_changes.");
+            "Properties of the trajectory, a dict: duration, fallback (whether it stops to steer), reason of the "
+            "fallback, tpcap_cost, gear_changes.");
         type.def("_page", &page, py::arg("title"), py::arg("subtitle"));
     }
 }  // namespace parking::python

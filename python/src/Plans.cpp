@@ -32,11 +32,9 @@ namespace parking::python
         {
             Question question;
             question.parameters = parametersFrom(parameters);
-            // The default may be given: the parameters of another plan have it.
+            // The default is allowed: the parameters of another plan contain it.
             if (question.parameters.turningRadius != PlannerParameters().turningRadius)
-                throw Error(
-                    "turning_radius would change nothing: the car turns as its vehicle says, by wheelbase and "
-                    "max_steering_angle");
+                throw Error("turning_radius has no effect: the vehicle defines it by wheelbase and max_steering_angle");
             question.parameters.anytime = flagFrom(anytime, "anytime");
             question.limits.expansions = countFrom(maxExpansions, "max_expansions");
             question.limits.time = numberFrom(timeLimit, "time_limit");
@@ -44,7 +42,7 @@ namespace parking::python
                 throw Error("time_limit must be a positive number of seconds, not " +
                             formatNumber(question.limits.time));
             if (question.parameters.anytime && std::isinf(question.limits.time) && question.limits.expansions == 0)
-                throw Error("anytime needs an end: a finite time_limit, or max_expansions");
+                throw Error("anytime requires a finite time_limit or max_expansions");
             return question;
         }
 
@@ -69,7 +67,7 @@ namespace parking::python
             return result;
         }
 
-        /** Plans many scenarios by threads of its own, while the calling one listens for signals. */
+        /** Plans many scenarios in its own threads, while the calling thread handles signals. */
         class Batch
         {
         public:
@@ -85,7 +83,7 @@ namespace parking::python
                 };
             }
 
-            /** Without the interpreter's lock. */
+            /** Call it without the interpreter's lock. */
             void run(std::size_t threads, Signals &signals)
             {
                 const std::size_t count = std::max<std::size_t>(1, std::min(threads, scenarios_.size()));
@@ -99,7 +97,7 @@ namespace parking::python
                 }
                 catch (const std::exception &)
                 {
-                    // The system gives no more of them: those that run do all of the work, or this one does.
+                    // The system refuses more threads: the running ones, or this one, do all of the work.
                     const std::lock_guard<std::mutex> lock(mutex_);
                     working_ -= count - workers.size();
                 }
@@ -207,26 +205,26 @@ namespace parking::python
     void addPlans(py::module_ &module)
     {
         py::class_<PathHandle, std::shared_ptr<PathHandle>> path(module, "Drive",
-                                                                 "A path in a scenario: what Result and ParkingPlan "
-                                                                 "have in common.");
+                                                                 "A path in a scenario, common base of Result and "
+                                                                 "ParkingPlan.");
         addPathProperties(path);
 
-        py::class_<PlanHandle, PathHandle, std::shared_ptr<PlanHandle>>(module, "Result", R"(What plan() came to.
+        py::class_<PlanHandle, PathHandle, std::shared_ptr<PlanHandle>>(module, "Result", R"(Result of plan().
 
-True if the path reaches a goal exactly. Arrays are created on first use and then kept.)")
+It is True if the path reaches a goal exactly. Arrays are created on first use and then kept.)")
             .def_property_readonly(
                 "status", [](const PlanHandle &self) { return statusName(self.plan().outcome); },
-                "exact, approximate, timeout, infeasible, invalid_start or invalid_goal")
+                "Status: exact, approximate, timeout, infeasible, invalid_start or invalid_goal.")
             .def_property_readonly(
                 "reason", [](const PlanHandle &self) { return self.plan().reason; },
-                "Why there is no exact solution, in words; empty otherwise.")
+                "Reason why there is no exact solution; empty otherwise.")
             .def_property_readonly(
                 "cost", [](const PlanHandle &self) { return self.plan().cost; },
-                "Metres and penalties; infinite without a solution.")
+                "Cost in metres: length and penalties; infinite without a solution.")
             .def_property_readonly(
                 "bound", [](const PlanHandle &self) { return self.plan().suboptimalityBound; },
-                "cost over a lower bound of all paths (see docs/planner.md); "
-                "infinite if unknown.")
+                "Ratio of the cost to a lower bound of the cost of any path (see docs/planner.md); infinite if "
+                "unknown.")
             .def_property_readonly(
                 "goal",
                 [](const PlanHandle &self) -> py::object
@@ -236,9 +234,10 @@ True if the path reaches a goal exactly. Arrays are created on first use and the
                     const Scenario &scenario = self.scenario().scenario();
                     return toPython(scenario.toWorld(scenario.goals.at(self.plan().goal)));
                 },
-                "The goal that is reached, or was aimed at; None without a path.")
+                "Goal pose that the path reaches or approaches; None without a path.")
             .def_property_readonly("statistics", &searchStatistics,
-                                   "A dict: expanded, generated, connections, heuristic_cells, open_list_operations, "
+                                   "Statistics of the search, a dict: expanded, generated, connections, "
+                                   "heuristic_cells, open_list_operations, "
                                    "open_list_comparisons, state_checks, exact_checks, "
                                    "planning_time and map_loading_time in seconds.")
             .def_property_readonly(
@@ -257,17 +256,18 @@ True if the path reaches a goal exactly. Arrays are created on first use and the
 
         static const std::string ABOUT_PLAN =
             "Plans a path from the start of a scenario to its goal, or to the nearest of several.\n\n"
-            "time_limit : seconds; anytime : go on improving until it is up\n"
+            "time_limit : seconds\n"
+            "anytime : whether to improve the path until the time limit\n"
             "max_expansions : limit of the number of expansions, independent of any clock; 0: no limit\n\n"
-            "Other Python threads run meanwhile, and Ctrl-C ends it. Parameters:\n\n" +
-            parameterLines() + "\nReturns a Result. Raises Error for a value that is not allowed.";
+            "Other Python threads continue during the search, and Ctrl-C interrupts it. Parameters:\n\n" +
+            parameterLines() + "\nReturns a Result. Raises Error for an invalid value.";
         module.def("plan", &planScenario, py::arg("scenario"), py::arg("time_limit") = 1.0, py::arg("anytime") = false,
                    py::arg("max_expansions") = 0, ABOUT_PLAN.c_str());
         module.def(
             "plan_batch", &planBatch, py::arg("scenarios"), py::arg("threads") = 0, py::arg("time_limit") = 1.0,
             py::arg("anytime") = false, py::arg("max_expansions") = 0,
-            "Plans many scenarios at once and returns their Results in the same order.\n\nthreads : 0 for one per "
-            "core; the others as for plan().");
+            "Plans many scenarios in parallel and returns their Results in the same order.\n\nthreads : number of "
+            "threads; 0 for one per core\n\nThe other arguments are those of plan().");
         module.def("_parameter_table",
                    []
                    {

@@ -53,7 +53,7 @@ namespace parking::python
             return std::filesystem::path(file).extension() == ".npy" ? readSurroundOcc(file) : readRosMap(file);
         }
 
-        /** Start, goals and slot, car and name: what all worlds have in common. */
+        /** A scenario with start, goals, slot, car and name, but without a world. */
         Scenario problemFrom(const py::object &start, const py::object &goal, const py::object &slot,
                              const py::object &vehicle, const py::object &name)
         {
@@ -110,7 +110,7 @@ namespace parking::python
             if (isFile(grid))
             {
                 if (!resolution.is_none() || !origin.is_none())
-                    throw Error("resolution and origin are in the map's file: leave them out");
+                    throw Error("resolution and origin are defined by the file of the map: omit them");
                 scenario.grid = readGrid(fileFrom(grid, "grid"));
             }
             else
@@ -123,7 +123,7 @@ namespace parking::python
             return made(std::move(scenario));
         }
 
-        /** The parts of a scenario in world coordinates, to be made into another. */
+        /** A copy of the scenario in world coordinates, input of another one. */
         Scenario inWorld(const Scenario &local)
         {
             Scenario scenario = local;
@@ -156,7 +156,7 @@ namespace parking::python
                 scenario.slot = other.slot;
             }
             else if (scenario.slot)
-                scenario.goals.clear();  // the slot gives them anew
+                scenario.goals.clear();  // the slot defines them again
             return made(std::move(scenario));
         }
 
@@ -220,12 +220,12 @@ namespace parking::python
 
         const char *const ABOUT = R"(A parking problem: obstacles, a vehicle, start and goals.
 
-Scenario.read(path)                                  from a file: YAML, TPCAP case
+Scenario.read(path)                                  from a file: YAML or TPCAP case
 Scenario.from_polygons(polygons, start, goal)        from lists or arrays of corners
-Scenario.from_grid(array, start, goal, resolution=)  from a NumPy array, or the path of a map
+Scenario.from_grid(array, start, goal, resolution=)  from a NumPy array or the path of a map
 
-All coordinates are those of the file or of what was given: metres and radians, poses (x, y, yaw) of the middle of the rear
-axle. A scenario does not change; replace() makes another one.)";
+Coordinates are those of the given file or data, in metres and radians. Poses (x, y, yaw) are of the midpoint of the
+rear axle. A scenario is immutable; replace() returns a modified copy.)";
     }  // namespace
 
     ScenarioPointer scenarioFrom(const py::handle &value, const std::string &field)
@@ -261,21 +261,26 @@ axle. A scenario does not change; replace() makes another one.)";
                     return std::make_shared<const ScenarioHandle>(read({car}));
                 },
                 py::arg("path"), py::arg("vehicle") = none, py::kw_only(), py::arg("text") = none,
-                "Reads a scenario file, recognised by its content. vehicle: a name, a file or a Vehicle to use instead "
-                "of the file's. text: bytes that were read from path, which may be a pipe.")
-            .def_static(
-                "from_polygons", &fromPolygons, py::arg("polygons"), py::arg("start"), py::arg("goal") = none,
-                py::kw_only(), py::arg("slot") = none, py::arg("vehicle") = "tpcap", py::arg("name") = "polygons",
-                "A world of polygons, each an array of n rows (x, y). Give a goal (one pose, or n rows of poses) "
-                "or a Slot.")
+                "Reads a scenario file; its format is detected automatically.\n\n"
+                "vehicle : a name, a file or a Vehicle that replaces the one of the file\n"
+                "text : the content of path, if it was already read, for example from a pipe")
+            .def_static("from_polygons", &fromPolygons, py::arg("polygons"), py::arg("start"), py::arg("goal") = none,
+                        py::kw_only(), py::arg("slot") = none, py::arg("vehicle") = "tpcap",
+                        py::arg("name") = "polygons",
+                        "Creates a scenario from polygons, each an array of n rows (x, y).\n\n"
+                        "goal : one pose, or n rows of poses; alternatively a Slot as slot")
             .def_static("from_grid", &fromGrid, py::arg("grid"), py::arg("start"), py::arg("goal") = none,
                         py::kw_only(), py::arg("slot") = none, py::arg("resolution") = none, py::arg("origin") = none,
                         py::arg("vehicle") = "tpcap", py::arg("name") = "grid", py::arg("unknown_is_occupied") = true,
-                        "A map: a 2-D array (0 free, 1 occupied, -1 or 2 unknown; row 0 is the lowest) with metres per "
-                        "cell and the pose of its lower left corner, or the path of a ROS map or a SurroundOcc .npy.")
+                        "Creates a scenario from a map.\n\n"
+                        "grid : a 2-D array (0 free, 1 occupied, -1 or 2 unknown; row 0 is the lowest), or the path "
+                        "of a ROS map or a SurroundOcc .npy file\n"
+                        "resolution : metres per cell, for arrays only\n"
+                        "origin : pose of the lower left corner, for arrays only\n"
+                        "goal : one pose, or n rows of poses; alternatively a Slot as slot")
             .def("replace", &changed, py::kw_only(), py::arg("start") = none, py::arg("goal") = none,
                  py::arg("slot") = none, py::arg("vehicle") = none,
-                 "The same world with another start, goal, slot or car.")
+                 "Returns a copy with another start, goal, slot or car.")
             .def(
                 "is_free",
                 [](const ScenarioHandle &self, const py::object &poses)
@@ -284,7 +289,8 @@ axle. A scenario does not change; replace() makes another one.)";
                                         [](const FootprintChecker &checker, const Pose &pose)
                                         { return checker.isFree(pose); });
                 },
-                py::arg("poses"), "Is the car free of obstacles at each of n poses? An array of n bool.")
+                py::arg("poses"),
+                "Returns an array of n bool: whether the car is free of collision at each of n poses.")
             .def(
                 "clearance_at",
                 [](const ScenarioHandle &self, const py::object &poses)
@@ -294,13 +300,17 @@ axle. A scenario does not change; replace() makes another one.)";
                                           { return checker.isFree(pose) ? checker.exactClearance(pose) : 0.0; });
                 },
                 py::arg("poses"),
-                "Metres between the car and the nearest obstacle at each of n poses; 0 where they touch.")
-            .def_property_readonly("name", [](const ScenarioHandle &self) { return self.scenario().name; })
-            .def_property_readonly("vehicle", [](const ScenarioHandle &self) { return self.scenario().vehicle; })
+                "Returns the distance between the car and the nearest obstacle at each of n poses in metres; 0 in "
+                "collision.")
+            .def_property_readonly(
+                "name", [](const ScenarioHandle &self) { return self.scenario().name; }, "Name of the scenario.")
+            .def_property_readonly(
+                "vehicle", [](const ScenarioHandle &self) { return self.scenario().vehicle; },
+                "The Vehicle that parks.")
             .def_property_readonly(
                 "start",
                 [](const ScenarioHandle &self) { return toPython(self.scenario().toWorld(self.scenario().start)); },
-                "(x, y, yaw)")
+                "Start pose of the car: (x, y, yaw).")
             .def_property_readonly(
                 "goals",
                 [](const ScenarioHandle &self)
@@ -310,33 +320,38 @@ axle. A scenario does not change; replace() makes another one.)";
                         goals.append(toPython(self.scenario().toWorld(goal)));
                     return goals;
                 },
-                "A list of (x, y, yaw).")
+                "Goal poses as a list of (x, y, yaw); those of the slot if there is one.")
             .def_property_readonly(
-                "slot", [](const ScenarioHandle &self) { return inWorld(self.scenario()).slot; }, "The Slot, or None.")
-            .def_property_readonly("polygons", &polygonsOf, "A list of n x 2 arrays; empty for a map.")
+                "slot", [](const ScenarioHandle &self) { return inWorld(self.scenario()).slot; },
+                "The Slot in which the car parks, or None.")
+            .def_property_readonly("polygons", &polygonsOf, "Obstacles as a list of n x 2 arrays; empty for a map.")
             .def_property_readonly(
                 "files", [](const ScenarioHandle &self) { return self.scenario().files; },
-                "The files that it was read from: itself, its map and image, its car.")
+                "Files from which the scenario was read: its own, and those of its map and car.")
             .def_property_readonly(
                 "unknown_is_occupied", [](const ScenarioHandle &self) { return self.scenario().unknownIsOccupied; },
-                "Are cells of a map obstacles of which nothing is known?")
+                "Whether unknown cells of a map are obstacles.")
             .def_property_readonly("grid", &cellsOf,
-                                   "The cells of a map, 0 free, 1 occupied, 2 unknown: an array that shows the "
-                                   "scenario's own memory; None for polygons.")
-            .def_property_readonly("resolution",
-                                   [](const ScenarioHandle &self) -> py::object
-                                   {
-                                       if (!self.scenario().grid)
-                                           return py::none();
-                                       return py::float_(self.scenario().grid->resolution());
-                                   })
-            .def_property_readonly("origin",
-                                   [](const ScenarioHandle &self) -> py::object
-                                   {
-                                       if (!self.scenario().grid)
-                                           return py::none();
-                                       return toPython(self.scenario().toWorld(self.scenario().grid->origin()));
-                                   })
+                                   "Cells of a map: 0 free, 1 occupied, 2 unknown. A read-only view of the "
+                                   "scenario's memory; None for polygons.")
+            .def_property_readonly(
+                "resolution",
+                [](const ScenarioHandle &self) -> py::object
+                {
+                    if (!self.scenario().grid)
+                        return py::none();
+                    return py::float_(self.scenario().grid->resolution());
+                },
+                "Metres per cell of a map; None for polygons.")
+            .def_property_readonly(
+                "origin",
+                [](const ScenarioHandle &self) -> py::object
+                {
+                    if (!self.scenario().grid)
+                        return py::none();
+                    return toPython(self.scenario().toWorld(self.scenario().grid->origin()));
+                },
+                "Pose of the lower left corner of a map; None for polygons.")
             .def_property_readonly(
                 "bounds",
                 [](const ScenarioHandle &self)
@@ -346,7 +361,7 @@ axle. A scenario does not change; replace() makes another one.)";
                                           high = scenario.bounds.max + scenario.worldOffset;
                     return py::make_tuple(low.x(), low.y(), high.x(), high.y());
                 },
-                "(x least, y least, x most, y most) of the world.")
+                "Bounds of the world: (min x, min y, max x, max y).")
             .def("__repr__", [](const ScenarioHandle &self) { return "Scenario('" + self.scenario().name + "')"; });
     }
 }  // namespace parking::python

@@ -6,12 +6,12 @@
 
 namespace parking::python
 {
-    /** \brief Lets Ctrl-C through while C++ is at work without the interpreter's lock: every 2 ms Python is asked for
-        signals. Only the main thread gets them, as always in Python. */
+    /** \brief Handles Ctrl-C while C++ runs without the interpreter's lock, by polling Python's signals every 2 ms. As
+        always in Python, only the main thread receives them. */
     class Signals
     {
     public:
-        /** \brief Has one come? To be called now and then, without the lock. */
+        /** \brief Whether a signal has arrived. Poll it without the interpreter's lock. */
         bool arrived()
         {
             const auto now = std::chrono::steady_clock::now();
@@ -23,7 +23,7 @@ namespace parking::python
             return arrived_;
         }
 
-        /** \brief Asks at once. */
+        /** \brief Polls for signals immediately and returns whether one has arrived. */
         bool ask()
         {
             const PyGILState_STATE state = PyGILState_Ensure();
@@ -32,7 +32,8 @@ namespace parking::python
             return arrived_;
         }
 
-        /** \brief Throws what the signal's handler raised (KeyboardInterrupt), if it has come; with the lock. */
+        /** \brief Throws the exception of the signal's handler (KeyboardInterrupt), if a signal has arrived. Requires
+            the interpreter's lock. */
         void raise() const
         {
             if (arrived_)

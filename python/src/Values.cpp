@@ -14,7 +14,7 @@ namespace parking::python
 {
     namespace
     {
-        /** How a value looks in a message. */
+        /** A value as text of a message. */
         std::string shown(const py::handle &value)
         {
             constexpr std::size_t LONGEST = 60;
@@ -32,7 +32,7 @@ namespace parking::python
 
         Doubles doublesFrom(const py::handle &value, const std::string &field, const std::string &right)
         {
-            // Text is no number, although NumPy would read it.
+            // Text is not a number, although NumPy would convert it.
             const py::array any = py::array::ensure(value);
             if (any && (any.dtype().kind() == 'f' || any.dtype().kind() == 'i' || any.dtype().kind() == 'u'))
                 if (Doubles array = Doubles::ensure(any))
@@ -89,7 +89,7 @@ namespace parking::python
                 add up.
 
                 \param arc from the row before to this one, if it were not for what it misses it by
-                \return whether there is such a way */
+                \return whether there is such a path */
             bool drive(const PathPiece &arc, const Pose &to)
             {
                 const std::optional<Path> exact = biarc(reached_, to, arc.direction());
@@ -278,7 +278,7 @@ namespace parking::python
             const double length = std::copysign(chord * (std::abs(half) < 1e-6 ? 1.0 : half / std::sin(half)), ahead);
             if (std::abs(aside) > JOINT || !driver.drive({turn / length, length}, to))
                 throw Error("path: no arc joins rows " + std::to_string(i - 1) + " and " + std::to_string(i) +
-                            ": one that leaves as the first of them heads misses the other by " +
+                            ": an arc tangent to the first row misses the second by " +
                             formatNumber(std::round(1e4 * std::abs(aside)) / 1e4) + " m");
         }
         return driver.finish();

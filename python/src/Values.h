@@ -13,12 +13,12 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-// From Python's values to the project's and back. Whatever does not fit is a parking::Error that names the field.
+// Conversions between values of Python and of the project. Invalid values throw parking::Error naming the field.
 namespace parking::python
 {
     namespace py = pybind11;
 
-    /** \brief An array of doubles whose data is used where it lies if it is such an array already. */
+    /** \brief An array of doubles. It shares the memory of an argument of the same type. */
     using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
     /** \brief Throws "FIELD must be RIGHT, not VALUE". */
@@ -42,21 +42,21 @@ namespace parking::python
     /** \brief Throws unless \e value is an array of n rows x, y, in metres. */
     Polygon polygonFrom(const py::handle &value, const std::string &field);
 
-    /** \brief A map from a 2-D array of whole numbers or bool, the first row lowest: 0 free, 1 occupied, -1 or 2
-        unknown. \param resolution metres of a cell \param origin of the first cell's corner */
+    /** \brief Creates a map from a 2-D array of whole numbers or bool, the first row lowest: 0 free, 1 occupied, -1 or
+        2 unknown. \param resolution metres per cell \param origin of the lower left corner */
     OccupancyGrid gridFrom(const py::handle &cells, double resolution, const Pose &origin);
 
-    /** \brief An array of n rows of x, y, yaw. */
+    /** \brief Converts \e value to an array of n rows x, y, yaw. */
     Doubles posesFrom(const py::handle &value, const std::string &field);
 
-    /** \brief A path from what a user has: rows x, y, yaw, more columns being passed over. Between two states lies one
-        arc. Throws parking::Error for rows that no arc joins. */
+    /** \brief Creates a path from rows x, y, yaw; further columns are ignored. One arc joins two states. Throws
+        parking::Error for rows that no arc joins. */
     Path pathFrom(const py::handle &value, const Scenario &scenario);
 
-    /** \brief The tuple x, y, yaw. */
+    /** \brief Converts a pose to the tuple x, y, yaw. */
     py::tuple toPython(const Pose &pose);
 
-    /** \brief An array that shows memory of \e owner, without copying; read only. */
+    /** \brief A read-only array that shares memory of \e owner. */
     template <class Value>
     py::array view(const Value *data, std::vector<py::ssize_t> shape, const py::handle &owner)
     {
@@ -65,10 +65,10 @@ namespace parking::python
         return std::move(array);
     }
 
-    /** \brief Values by the names of parameterTable(). */
+    /** \brief Reads parameters by the names of parameterTable(). */
     PlannerParameters parametersFrom(const py::dict &values);
 
-    /** \brief All parameters, by the names of parameterTable(). */
+    /** \brief Returns all parameters by the names of parameterTable(). */
     py::dict toPython(const PlannerParameters &parameters);
 
     /** \brief The parameters as lines of a docstring. */

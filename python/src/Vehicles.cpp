@@ -17,15 +17,22 @@ namespace parking::python
 {
     namespace
     {
-        constexpr std::array<std::pair<const char *, double Vehicle::*>, 8> FIELDS{
-            {{"wheelbase", &Vehicle::wheelbase},
-             {"front_overhang", &Vehicle::frontOverhang},
-             {"rear_overhang", &Vehicle::rearOverhang},
-             {"width", &Vehicle::width},
-             {"max_steering_angle", &Vehicle::maxSteeringAngle},
-             {"max_speed", &Vehicle::maxSpeed},
-             {"max_acceleration", &Vehicle::maxAcceleration},
-             {"max_steering_rate", &Vehicle::maxSteeringRate}}};
+        struct Field
+        {
+            const char *name;
+            double Vehicle::*value;
+            const char *about;
+        };
+        constexpr std::array<Field, 8> FIELDS{
+            {{"wheelbase", &Vehicle::wheelbase, "Distance between the axles in metres."},
+             {"front_overhang", &Vehicle::frontOverhang, "Distance from front axle to front bumper in metres."},
+             {"rear_overhang", &Vehicle::rearOverhang, "Distance from rear axle to rear bumper in metres."},
+             {"width", &Vehicle::width, "Width of the body in metres."},
+             {"max_steering_angle", &Vehicle::maxSteeringAngle,
+              "Maximum steering angle in radians, mean of the front wheels."},
+             {"max_speed", &Vehicle::maxSpeed, "Maximum speed in m/s, in both directions."},
+             {"max_acceleration", &Vehicle::maxAcceleration, "Maximum acceleration in m/s^2, of either sign."},
+             {"max_steering_rate", &Vehicle::maxSteeringRate, "Maximum steering rate in rad/s."}}};
 
         Vehicle makeVehicle(const std::string &base, const py::kwargs &fields)
         {
@@ -41,15 +48,15 @@ namespace parking::python
                     continue;
                 }
                 const auto *const field =
-                    std::find_if(FIELDS.begin(), FIELDS.end(), [&](const auto &each) { return each.first == name; });
+                    std::find_if(FIELDS.begin(), FIELDS.end(), [&](const Field &each) { return each.name == name; });
                 if (field == FIELDS.end())
                 {
                     std::vector<std::string> names{"name"};
                     for (const auto &each : FIELDS)
-                        names.emplace_back(each.first);
+                        names.emplace_back(each.name);
                     throw Error(unknownName("field of a vehicle", name, names));
                 }
-                vehicle.*field->second = numberFrom(value, "vehicle: " + name);
+                vehicle.*field->value = numberFrom(value, "vehicle: " + name);
             }
             vehicle.validate();
             return vehicle;
@@ -105,24 +112,25 @@ namespace parking::python
 
     void addVehicles(py::module_ &module)
     {
-        module.def("vehicles", &vehicleNames, "Names of the known vehicles.");
+        module.def("vehicles", &vehicleNames, "Returns the names of the known vehicles.");
 
-        py::class_<Vehicle> vehicle(module, "Vehicle", R"(A car: its rectangle round the rear axle, and its limits.
+        py::class_<Vehicle> vehicle(module, "Vehicle",
+                                    R"(A car: its rectangular body relative to the rear axle, and its limits.
 
-Vehicle("vw_golf8")                     a car known by name, see vehicles()
-Vehicle("van.yaml")                     or from a file
-Vehicle("vw_golf8", width=1.9)          changed
-Vehicle(wheelbase=2.9, width=1.9)       the car of TPCAP, changed
+Vehicle("vw_golf8")                     a known car, see vehicles()
+Vehicle("van.yaml")                     a car from a file
+Vehicle("vw_golf8", width=1.9)          a known car with another width
+Vehicle(wheelbase=2.9, width=1.9)       the car of TPCAP with two other fields
 
-Fields in metres, radians and SI units: wheelbase, front_overhang, rear_overhang, width, max_steering_angle (mean of the
-front wheels), max_speed, max_acceleration, max_steering_rate.)");
+The fields are in metres, radians and other SI units: wheelbase, front_overhang, rear_overhang, width,
+max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_steering_rate.)");
         vehicle.def(py::init(&makeVehicle), py::arg("name_or_file") = "tpcap");
-        vehicle.def_readonly("name", &Vehicle::name);
+        vehicle.def_readonly("name", &Vehicle::name, "Name of the car; custom after a change of its fields.");
         for (const auto &field : FIELDS)
-            vehicle.def_readonly(field.first, field.second);
+            vehicle.def_readonly(field.name, field.value, field.about);
         vehicle.def_property_readonly("turning_radius", &Vehicle::minTurningRadius,
-                                      "Smallest turning radius of the rear axle's middle, metres.");
-        vehicle.def_property_readonly("length", &Vehicle::length, "Bumper to bumper, metres.");
+                                      "Minimum turning radius of the midpoint of the rear axle in metres.");
+        vehicle.def_property_readonly("length", &Vehicle::length, "Length from bumper to bumper in metres.");
         vehicle.def(
             "footprint",
             [](const Vehicle &self, const py::object &pose)
@@ -130,28 +138,40 @@ front wheels), max_speed, max_acceleration, max_steering_rate.)");
                 const auto corners = self.footprint(poseFrom(pose, "pose"));
                 return rowsOf({corners.begin(), corners.end()});
             },
-            py::arg("pose"), "The corners of the body at a pose, counter-clockwise from rear right: a 4 x 2 array.");
+            py::arg("pose"),
+            "Returns the corners of the body at a pose, counter-clockwise from rear right, as a 4 x 2 array.");
         vehicle.def("__repr__", [](const Vehicle &self) { return "Vehicle('" + self.name + "')"; });
 
         py::class_<ParkingSlot>(module, "Slot", R"(A parking slot: a rectangle with a pose at its centre.
 
-Perpendicular and angled slots: +x of the pose points out of the slot towards the aisle. Parallel slots: +x is the direction
-of travel in the lane beside it. See docs/scenarios.md for the fields.)")
+In perpendicular and angled slots, +x of the pose points out of the slot towards the aisle. In parallel slots, +x is the
+direction of travel in the adjacent lane. See docs/scenarios.md for the fields.)")
             .def(py::init(&makeSlot), py::arg("kind"), py::arg("pose"), py::arg("length"), py::arg("width"),
                  py::arg("entry") = "reverse", py::arg("angle") = 0.25 * PI, py::arg("side") = "either",
                  py::arg("depth") = py::none(), py::arg("lateral_offset") = 0.0)
-            .def_property_readonly("kind", [](const ParkingSlot &self) { return nameOf(self.kind, KINDS); })
-            .def_property_readonly("entry", [](const ParkingSlot &self) { return nameOf(self.entry, ENTRIES); })
-            .def_property_readonly("side", [](const ParkingSlot &self) { return nameOf(self.side, SIDES); })
-            .def_property_readonly("pose", [](const ParkingSlot &self) { return toPython(self.pose); })
-            .def_readonly("length", &ParkingSlot::length)
-            .def_readonly("width", &ParkingSlot::width)
-            .def_readonly("angle", &ParkingSlot::angle)
-            .def_readonly("depth", &ParkingSlot::depth)
-            .def_readonly("lateral_offset", &ParkingSlot::lateralOffset)
+            .def_property_readonly(
+                "kind", [](const ParkingSlot &self) { return nameOf(self.kind, KINDS); },
+                "Kind of slot: perpendicular, parallel or angled.")
+            .def_property_readonly(
+                "entry", [](const ParkingSlot &self) { return nameOf(self.entry, ENTRIES); },
+                "Direction in which the car enters: reverse, forward or either.")
+            .def_property_readonly(
+                "side", [](const ParkingSlot &self) { return nameOf(self.side, SIDES); },
+                "Side of the aisle on which the slot lies: right, left or either.")
+            .def_property_readonly(
+                "pose", [](const ParkingSlot &self) { return toPython(self.pose); },
+                "Pose of the centre of the slot: (x, y, yaw).")
+            .def_readonly("length", &ParkingSlot::length, "Length along the parked car in metres.")
+            .def_readonly("width", &ParkingSlot::width, "Width across the parked car in metres.")
+            .def_readonly("angle", &ParkingSlot::angle,
+                          "Angle between +x of the pose and the aisle of an angled slot, in radians.")
+            .def_readonly("depth", &ParkingSlot::depth,
+                          "Metres between the closed end of the slot and the car, or None for a centred car.")
+            .def_readonly("lateral_offset", &ParkingSlot::lateralOffset,
+                          "Offset of the parked car to the left of the slot's axis in metres.")
             .def_property_readonly(
                 "outline", [](const ParkingSlot &self) { return rowsOf(self.outline()); },
-                "Its corners: a 4 x 2 array.")
+                "Corners of the slot as a 4 x 2 array.")
             .def(
                 "goals",
                 [](const ParkingSlot &self, const Vehicle &car)
@@ -161,7 +181,7 @@ of travel in the lane beside it. See docs/scenarios.md for the fields.)")
                         goals.append(toPython(pose));
                     return goals;
                 },
-                py::arg("vehicle"), "Poses of the rear axle of a car parked in the slot, preferred first.")
+                py::arg("vehicle"), "Returns the poses (x, y, yaw) of a car parked in the slot, preferred first.")
             .def("__repr__", [](const ParkingSlot &self) { return "Slot('" + nameOf(self.kind, KINDS) + "')"; });
     }
 }  // namespace parking::python

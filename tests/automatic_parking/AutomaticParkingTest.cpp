@@ -256,7 +256,7 @@ namespace
         parameters.drive.disturbances.blind = {{3.0, 1e9}};
         const ParkingResult result = AutomaticParking(parameters).park(rowOfSlots());
         EXPECT_EQ(result.status, ParkingStatus::Stopped);
-        EXPECT_NE(result.message.find("the pose was lost, and not back after 10 s"), std::string::npos)
+        EXPECT_NE(result.message.find("the pose was lost and not recovered within 10 s"), std::string::npos)
             << result.message;
         EXPECT_EQ(result.legs.size(), 1u);
         EXPECT_EQ(result.evaluation.collisions, 0u);
@@ -313,7 +313,7 @@ namespace
         EXPECT_EQ(bad.legs.at(0).plan.clearance, 0.0);
         // The car drives as far as it may, and stands before what is in the way.
         EXPECT_EQ(bad.status, ParkingStatus::Stopped);
-        EXPECT_EQ(bad.message, "the car could not stop in time if it went on");
+        EXPECT_EQ(bad.message, "the car could not stop in time if it drove on");
         EXPECT_EQ(bad.evaluation.collisions, 0u);
         EXPECT_EQ(bad.trajectory.back().v, 0.0);
         const double bumper = bad.trajectory.back().x + scenario.vehicle.wheelbase + scenario.vehicle.frontOverhang;
@@ -411,7 +411,7 @@ namespace
             return field(&P::drive, &ClosedLoopParameters::tracking, members...);
         };
         expectRefused<P>({{"keptClearance", field(&P::keptClearance), {-1.0, nan}},
-                          {"leastClearance", field(&P::leastClearance), {-1.0, nan}},
+                          {"minClearance", field(&P::minClearance), {-1.0, nan}},
                           {"motionClearance", field(&P::motionClearance), {-1.0, nan}},
                           {"clearanceShare", field(&P::clearanceShare), {0.0, 1.0, nan}},
                           {"stopClearance", field(&P::stopClearance), {-1.0, nan}},

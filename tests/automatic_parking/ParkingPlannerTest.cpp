@@ -44,7 +44,7 @@ namespace
     TEST(ParkingPlannerTest, withoutManoeuvresTheSearchGoesAllTheWay)
     {
         PlanningParameters parameters;
-        parameters.wayIn = WayIn::Searched;
+        parameters.entryMode = EntryMode::Searched;
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
         ASSERT_TRUE(plan.found) << plan.message;
@@ -87,7 +87,7 @@ namespace
         ASSERT_TRUE(direct.found);
         EXPECT_LT(direct.path.length(), 16.0);
         PlanningParameters parameters;
-        parameters.gapWorth = 100.0;
+        parameters.gapWeight = 100.0;
         const ParkingPlan round = ParkingPlanner(parameters).plan(scenario);
         ASSERT_TRUE(round.found);
         EXPECT_GT(round.clearance, 0.2);
@@ -132,7 +132,7 @@ namespace
         {
             scenario.polygons.push_back(box(-10.0, side + room, -9.0, side + 1.0));
             const ParkingPlan plan = planner.plan(scenario);
-            EXPECT_EQ(plan.found, room > PlanningParameters::LEAST_GAP_IN_STRETCHES) << plan.message;
+            EXPECT_EQ(plan.found, room > PlanningParameters::MIN_GAP_IN_STRETCHES) << plan.message;
             if (plan.found)
                 EXPECT_NEAR(plan.gap, planner.parameters().tuning.shareOfStartGap * room, 1e-6);
             else
@@ -149,7 +149,7 @@ namespace
             const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
             EXPECT_TRUE(plan.found) << plan.message;
             EXPECT_TRUE(plan.path.pieces.empty());
-            EXPECT_EQ(plan.tries, 0u);
+            EXPECT_EQ(plan.attempts, 0u);
             expectAt(plan.path.end(), plan.goal);
             EXPECT_GT(plan.clearance, 0.0);
         }
@@ -187,7 +187,7 @@ namespace
         expectRefused<P>({{"timeLimit", field(&P::timeLimit), {0.0, nan}},
                           {"expansionsPerGap", field(&P::expansionsPerGap), {0.0}},
                           {"radiusFactor", field(&P::radiusFactor), {0.9, nan}},
-                          {"gapWorth", field(&P::gapWorth), {-1.0, nan}},
+                          {"gapWeight", field(&P::gapWeight), {-1.0, nan}},
                           {"gearChangePenalty", field(&P::gearChangePenalty), {-1.0, nan}},
                           {"steeringChangePenalty", field(&P::steeringChangePenalty), {-1.0, nan}},
                           {"preferredClearance", field(&P::preferredClearance), {-1.0, nan}},

@@ -77,11 +77,11 @@ namespace
         ASSERT_TRUE(isPathFree(problem.checker, path));
         ASSERT_GT(path.cusps(), problem.path.cusps());
         QuickestTrajectoryOptions options;
-        options.mostExpansions = 1;
+        options.maxExpansions = 1;
         const std::vector<Path> paths = alternativePaths(problem.checker, problem.scenario.bounds, path, options);
         EXPECT_TRUE(
             std::any_of(paths.begin(), paths.end(), [&path](const Path &each) { return each.cusps() < path.cusps(); }));
-        options.mostExpansions = 0;
+        options.maxExpansions = 0;
         EXPECT_TRUE(alternativePaths(problem.checker, problem.scenario.bounds, path, options).empty());
     }
 

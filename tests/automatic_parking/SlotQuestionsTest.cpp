@@ -94,7 +94,7 @@ TEST_P(TightSlots, AreEnteredInStretches)
         const bool parallel = kind == SlotKind::Parallel;
         SCOPED_TRACE(parallel ? "parallel" : "perpendicular");
         const ParkingSlot slot = tightSlot(kind, car);
-        const ReverseParkingResult result = wayIntoSlot(inAisle(AISLE), car, slot);
+        const ReverseParkingResult result = planSlotEntry(inAisle(AISLE), car, slot);
         if (!parallel && car.name == "mercedes_s_w223")
         {
             // 5.18 m of car, a ladder round a corner: not even sideways would it get in.
@@ -139,7 +139,7 @@ TEST(SlotQuestions, NoBodyTurnsWhereTheBoundSaysSo)
         }
         PlanningParameters parameters = PlanningParameters::intoTightSlots(AISLE);
         parameters.expansionsPerGap = 100;
-        const ReverseParkingResult result = wayIntoSlot(ParkingPlanner(parameters), car, slot);
+        const ReverseParkingResult result = planSlotEntry(ParkingPlanner(parameters), car, slot);
         EXPECT_EQ(always, result.message.find("any number of stretches") == std::string::npos) << more;
         EXPECT_EQ(always, more > 0.3);
     }
@@ -218,7 +218,7 @@ TEST(SlotQuestions, SmallestSlotIsSmallerThanForOneSweep)
         EXPECT_GT(least, body);
         EXPECT_LE(least, slot.*dimension) << "that one fits";
         slot.*dimension = least;
-        EXPECT_TRUE(wayIntoSlot(planner, car, slot).fits());
+        EXPECT_TRUE(planSlotEntry(planner, car, slot).fits());
         // From a slot that does not fit it looks at larger ones.
         slot.*dimension = body + 0.03;
         EXPECT_NEAR(smallestSlot(planner, car, slot, 0.1), least, 0.25);
@@ -233,14 +233,14 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     const ParkingPlanner planner = inAisle(6.0);
     ParkingSlot small = slot;
     small.length = 4.5;
-    expectError([&] { wayIntoSlot(planner, car, small); }, {"slot", "length", "18.9 cm"});
+    expectError([&] { planSlotEntry(planner, car, small); }, {"slot", "length", "18.9 cm"});
     ParkingSlot negative = slot;
     negative.width = -2.0;
-    expectError([&] { wayIntoSlot(planner, car, negative); }, {"slot", "width", "-2"});
+    expectError([&] { planSlotEntry(planner, car, negative); }, {"slot", "width", "-2"});
     ParkingSlot steep = slot;
     steep.kind = SlotKind::Angled;
     steep.angle = 2.0;
-    expectError([&] { wayIntoSlot(planner, car, steep); }, {"slot", "angle"});
+    expectError([&] { planSlotEntry(planner, car, steep); }, {"slot", "angle"});
 
     expectError([&] { smallestSlot(planner, car, slot, 0.0); }, {"smallest slot", "precision is 0"});
 
@@ -249,7 +249,7 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     expectError([&] { ParkingPlanner tight(parameters); }, {"gap", "0.004"});
     parameters = PlanningParameters::intoTightSlots();
     parameters.sweep.guardLength = -1.0;
-    expectError([&] { wayIntoSlot(ParkingPlanner(parameters), car, slot); }, {"guard"});
+    expectError([&] { planSlotEntry(ParkingPlanner(parameters), car, slot); }, {"guard"});
 
     // A start among obstacles is a status, not an error.
     std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right, 6.0);

@@ -71,9 +71,9 @@ namespace parking::test
                               {"steeringRateShare", tracking(&TrackingParameters::steeringRateShare), shares},
                               {"lateralAcceleration", tracking(&TrackingParameters::lateralAcceleration), NOT_POSITIVE},
                               {"brakeReserve", tracking(&TrackingParameters::brakeReserve), {-0.1, 1.0, NO_NUMBER}},
-                              {"guardPatience", tracking(&TrackingParameters::guardPatience), NEGATIVE},
-                              {"posePatience", tracking(&TrackingParameters::posePatience), NEGATIVE},
-                              {"wheelPatience", tracking(&TrackingParameters::wheelPatience), NEGATIVE},
+                              {"guardWaitLimit", tracking(&TrackingParameters::guardWaitLimit), NEGATIVE},
+                              {"poseWaitLimit", tracking(&TrackingParameters::poseWaitLimit), NEGATIVE},
+                              {"wheelWaitLimit", tracking(&TrackingParameters::wheelWaitLimit), NEGATIVE},
                               {"stopTolerance", tracking(&TrackingParameters::stopTolerance), NOT_POSITIVE},
                               {"arrivalTolerance", tracking(&TrackingParameters::arrivalTolerance), NOT_POSITIVE},
                               {"settleTime", tracking(&TrackingParameters::settleTime), NOT_POSITIVE},
@@ -169,8 +169,8 @@ namespace parking::test
             refused("acceleration", [](TimedMotion &m) { m.knots[2].v = 1.6; });
             refused("steering angle", [](TimedMotion &m) { m.knots[2].steering = 0.76; });
             refused("steering rate", [](TimedMotion &m) { m.knots[1].steering = 0.3; });
-            refused("time does not go on", [](TimedMotion &m) { m.knots[4].t = m.knots[3].t; });
-            refused("without a rest", [](TimedMotion &m) { m.knots[4].v = -0.1; });
+            refused("the time does not increase", [](TimedMotion &m) { m.knots[4].t = m.knots[3].t; });
+            refused("without standstill", [](TimedMotion &m) { m.knots[4].v = -0.1; });
             refused("never drives",
                     [](TimedMotion &m)
                     {

@@ -7,21 +7,21 @@
 
 namespace parking
 {
-    /** \brief Variables of one node of a motion program: see MotionProgram. */
+    /** \brief Number of variables of a node of a motion program, see MotionProgram. */
     constexpr int NODE_SIZE = 6;
-    /** \brief A number for each variable of a node, in the order of NodeEntry. */
+    /** \brief One number per variable of a node, in the order of NodeEntry. */
     using NodeVector = Eigen::Matrix<double, NODE_SIZE, 1>;
-    /** \brief A block that couples the variables of two nodes, or those of one. */
+    /** \brief A block that couples the variables of one or two nodes. */
     using NodeMatrix = Eigen::Matrix<double, NODE_SIZE, NODE_SIZE>;
 
-    /** \brief A symmetric matrix of blocks that couples neighbours only, and its Cholesky factorisation.
+    /** \brief A symmetric block matrix that couples adjacent blocks only, and its Cholesky factorisation.
 
-        Row of blocks k holds diagonal[k], and left of it below[k - 1]. Time and memory grow linearly with the number
-        of blocks. */
+        Block row k contains diagonal[k], and below[k - 1] to its left. Time and memory grow linearly with the number of
+        blocks. */
     class BlockTridiagonal
     {
     public:
-        /** \brief Gives the matrix \e size rows of blocks, all zero. */
+        /** \brief Resizes the matrix to \e size block rows, all zero. */
         void reset(std::size_t size);
 
         /** \brief Number of blocks on the diagonal. */
@@ -31,10 +31,10 @@ namespace parking
         }
 
         /** \brief Factorises the matrix with \e shift added to its diagonal.
-            \return false when that is not positive definite; there is no factorisation then */
+            \return false if the sum is not positive definite; there is no factorisation then */
         bool factorize(double shift);
 
-        /** \brief Solves for \e vector, in place. Only after factorize() has returned true. */
+        /** \brief Solves for \e vector, in place. Requires a successful factorize(). */
         void solve(std::vector<NodeVector> &vector) const;
 
         std::vector<NodeMatrix> diagonal;  ///< only the lower triangles are read

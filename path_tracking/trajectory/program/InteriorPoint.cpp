@@ -7,25 +7,25 @@ namespace parking
 {
     namespace
     {
-        /** Of the joints in the linear systems. */
+        /** Softness of the joints in the linear systems. */
         constexpr double SOFTNESS = 1e-8;
-        /** Share of a slack or price that a step leaves at least. */
+        /** Minimum share of a slack or price that remains after a step. */
         constexpr double LEFT_OVER = 0.005;
 
-        /** Length of a step below which the next direction is damped, the damping that begins with, the most, and what
-            is too little to matter. It falls by and by: switched off at once, every second step was short. */
-        constexpr double SHORT_STEP = 0.1, FIRST_DAMPING = 0.02, MOST_DAMPING = 1.0, NO_DAMPING = 0.005;
-        /** A barrier's problem counts as solved when its cost changes by less than this share so many times in a row,
-           and joints and inequalities are this near to holding. Else the last millisecond takes half of the time. */
+        /** Length of a step below which the next direction is damped; first, maximum and negligible damping. The
+            damping decays slowly, because switching it off at once made every second step short. */
+        constexpr double SHORT_STEP = 0.1, FIRST_DAMPING = 0.02, MAX_DAMPING = 1.0, NO_DAMPING = 0.005;
+        /** The problem of a barrier is solved if its cost changes by less than this share several times in a row, and
+            joints and inequalities are satisfied to this accuracy. Stricter limits would take twice the time. */
         constexpr double SMALL_CHANGE = 1e-4, NEARLY = 1e-4;
         constexpr int ENOUGH_SMALL_CHANGES = 3;
-        /** Metres and radians that a joint may gape in what is not optimal, and all of them together: a motion misses
-            its goal by their sum. */
+        /** Maximum gap of a joint in a feasible solution, in metres or radians, and of all joints in total. A motion
+            misses its goal by their sum. */
         constexpr double FEASIBLE_GAP = 1e-5, FEASIBLE_SUM = 5e-4;
-        /** The same in what is optimal, and by how much inequalities may be missed. */
+        /** Maximum gap of a joint in an optimal solution, and maximum violation of inequalities. */
         constexpr double OPTIMAL_GAP = 1e-6, LIMIT_TOLERANCE = 1e-7;
         /** Attempts to make the system positive definite. */
-        constexpr int MOST_SHIFTS = 40;
+        constexpr int MAX_SHIFTS = 40;
 
         using Nodes = std::vector<NodeVector>;
 
@@ -71,7 +71,7 @@ namespace parking
             {
                 InteriorPointResult result;
                 std::size_t stuck = 0;
-                for (; result.iterations < options_.mostIterations; ++result.iterations)
+                for (; result.iterations < options_.maxIterations; ++result.iterations)
                 {
                     if (interrupted && interrupted())
                     {
@@ -120,7 +120,7 @@ namespace parking
                 return most;
             }
 
-            /** How far the barrier problem with \e barrier is from being solved. */
+            /** Residual of the barrier problem with \e barrier. */
             double error(double barrier) const
             {
                 double sum = 0.0;
@@ -139,7 +139,7 @@ namespace parking
                 return std::max(worst, gap());
             }
 
-            /** Counts in a row how often the cost hardly changed. */
+            /** Counts consecutive steps with small changes of the cost. */
             bool hasSettled()
             {
                 const bool isSmall = std::abs(lastCost_ - cost_) < SMALL_CHANGE * std::abs(cost_);
@@ -148,7 +148,7 @@ namespace parking
                 return smallChanges_ >= ENOUGH_SMALL_CHANGES;
             }
 
-            /** Lowers the barrier as often as its problem is solved. \return whether the last one is */
+            /** Lowers the barrier while its problem is solved. \return whether the last one is solved */
             bool lowerBarrier()
             {
                 for (bool settled = hasSettled(); settled || error(barrier_) <= 10.0 * barrier_; settled = false)
@@ -166,13 +166,13 @@ namespace parking
                 return false;
             }
 
-            /** Newton's direction. \return false when there is none */
+            /** Computes Newton's direction. \return false if there is none */
             bool direction()
             {
                 double shift = damping_;
                 for (int attempt = 0; !program_.system().factorize(shift); ++attempt)
                 {
-                    if (attempt == MOST_SHIFTS)
+                    if (attempt == MAX_SHIFTS)
                         return false;
                     shift = attempt > 0 ? shift * (lastShift_ > 0.0 ? 4.0 : 20.0)
                                         : std::max({1e-6, lastShift_ / 3.0, 4.0 * damping_});
@@ -215,7 +215,7 @@ namespace parking
 
             double barrierCost(double cost, const std::vector<double> &slacks) const
             {
-                // The product of a few is safe from under- and overflow, and one logarithm serves them all.
+                // A product of a few values neither under- nor overflows, and needs only one logarithm.
                 double logarithms = 0.0, product = 1.0;
                 for (const double slack : slacks)
                 {
@@ -229,7 +229,7 @@ namespace parking
                 return cost - barrier_ * (logarithms + std::log(product));
             }
 
-            /** Goes along the direction as far as that helps. \return whether it could */
+            /** Moves along the direction while that decreases the penalty function. \return whether it moved */
             bool advance()
             {
                 const double now = infeasibility(joints_, values_, duals_.slacks);
@@ -268,15 +268,15 @@ namespace parking
                     duals_.joints[k] += length * jointStep_[k];
                 for (std::size_t i = 0; i < values_.size(); ++i)
                 {
-                    // Prices stay near the barrier's own (I. Wachter and L. Biegler, 2006, equation 16).
+                    // Prices stay close to those of the barrier (I. Wachter and L. Biegler, 2006, equation 16).
                     const double own = barrier_ / duals_.slacks[i];
                     duals_.prices[i] =
                         std::clamp(duals_.prices[i] + priceLength * priceStep_[i], 1e-10 * own, 1e10 * own);
                 }
                 lastShift_ = found && length > 0.5 ? lastShift_ / 3.0 : lastShift_;
-                // Short steps are a sign of a direction that reaches beyond what the linearisation knows.
+                // Short steps indicate a direction beyond the range of the linearisation.
                 if (length < SHORT_STEP)
-                    damping_ = std::min(MOST_DAMPING, std::max(FIRST_DAMPING, 4.0 * damping_));
+                    damping_ = std::min(MAX_DAMPING, std::max(FIRST_DAMPING, 4.0 * damping_));
                 else if (length > 0.5)
                     damping_ = damping_ > NO_DAMPING ? 0.25 * damping_ : 0.0;
                 return found;

@@ -13,7 +13,7 @@ namespace parking
         constexpr int YAW0 = NODE_YAW, YAW1 = SECOND + NODE_YAW;
         constexpr int PHI0 = NODE_STEERING, PHI1 = SECOND + NODE_STEERING;
 
-        /** The entry that turns the way of x, y or yaw at the begin. */
+        /** The angle entry of the way of x, y or yaw at the first node. */
         int angleOf(int e)
         {
             return e < 2 ? YAW0 : PHI0;
@@ -142,8 +142,8 @@ namespace parking
         const double turning = m[2] * tangent_ / wheelbase_;
         const double turning1 = m[2] * (1.0 + tangent_ * tangent_) / wheelbase_;
         const double turning2 = 2.0 * turning1 * tangent_;
-        // All of it is between seven entries: the yaw in the middle depends on every one of them, speed and steering
-        // there on two each.
+        // The derivatives couple seven entries: the yaw in the middle depends on all of them, speed and steering there
+        // on two each.
         enum
         {
             D,
@@ -206,7 +206,7 @@ namespace parking
 
     void IntervalModel::addSpan(const SpanTerms &span, IntervalTerms &terms) const
     {
-        /** A derivative of a quantity of the span by an entry of the nodes. There are few of them. */
+        /** A derivative of a quantity of the span by an entry of the nodes. Few of them are nonzero. */
         struct Derivative
         {
             int quantity, entry;

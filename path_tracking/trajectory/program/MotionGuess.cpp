@@ -14,14 +14,15 @@ namespace parking
         using Points = std::vector<GuessPoint>;
 
         constexpr double GRID = 0.02;            // metres between two points along a path
-        constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, about
-        constexpr double STEERING_WINDOW = 0.5;  // metres over which a guess turns the wheels, to either side
-        constexpr double LEAST_WAY = 1e-3;       // metres between two points, so that a drive takes time
-        constexpr double BEND = 6.0;             // metres over which a stretch is bent to another end
-        constexpr double LEVER = 1.5;            // metres that a radian counts for when poses are compared
+        constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, approximately
+        constexpr double STEERING_WINDOW = 0.5;  // metres before and after a jump over which a guess steers
+        constexpr double MIN_DISTANCE =
+            1e-3;                      // metres, minimum distance of two points, so that the duration is positive
+        constexpr double BEND = 6.0;   // metres over which a stretch is bent to another end
+        constexpr double LEVER = 1.5;  // metres per radian when poses are compared
         constexpr std::size_t FEWEST_POINTS = 3;
 
-        /** Means of \e values over \e reach neighbours to either side, as far as there are any. */
+        /** Means of \e values over up to \e reach neighbours on either side. */
         std::vector<double> averaged(const std::vector<double> &values, std::size_t reach)
         {
             std::vector<double> sums(values.size() + 1, 0.0), means(values.size());
@@ -53,7 +54,7 @@ namespace parking
             return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.yaw + b.yaw)};
         }
 
-        /** Of those that leave a stretch between \e first and \e last, the point nearest to \e pose. */
+        /** The point nearest to \e pose among those that leave a stretch between \e first and \e last. */
         std::size_t nearest(const Points &points, std::size_t first, std::size_t last, const Pose &pose)
         {
             const auto least = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(first),
@@ -63,7 +64,7 @@ namespace parking
             return static_cast<std::size_t>(least - points.begin());
         }
 
-        /** Cuts the end off where that is nearest to \e pose. */
+        /** Cuts the end off at the point nearest to \e pose. */
         void cutTowards(Points &points, const Pose &pose)
         {
             if (points.size() > FEWEST_POINTS)
@@ -102,7 +103,7 @@ namespace parking
         const double grid = length / static_cast<double>(parts);
         std::vector<double> angles;
         Pose pose = path.start;
-        double behind = 0.0;  // metres of the pieces that are passed
+        double behind = 0.0;  // metres of the completed pieces
         std::size_t piece = 0;
         for (std::size_t i = 0; i <= parts; ++i)
         {
@@ -128,22 +129,22 @@ namespace parking
       : direction_(direction),
         points_(std::move(points))
     {
-        std::vector<double> ways;
+        std::vector<double> distances;
         for (std::size_t i = 1; i < points_.size(); ++i)
-            ways.push_back(std::max(LEAST_WAY, positionDistance(points_[i - 1].pose, points_[i].pose)));
-        setSpeeds(ways, vehicle);
+            distances.push_back(std::max(MIN_DISTANCE, positionDistance(points_[i - 1].pose, points_[i].pose)));
+        setSpeeds(distances, vehicle);
     }
 
-    void StretchGuess::setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle)
+    void StretchGuess::setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle)
     {
         const double cap = vehicle.maxSpeed * vehicle.maxSpeed;
         const std::vector<double> squared =
-            squaredSpeeds(ways, std::vector<double>(ways.size(), cap), vehicle.maxAcceleration);
+            squaredSpeeds(distances, std::vector<double>(distances.size(), cap), vehicle.maxAcceleration);
         for (std::size_t i = 0; i < points_.size(); ++i)
             points_[i].speed = std::sqrt(squared[i]);
         points_.front().t = 0.0;
-        for (std::size_t i = 0; i < ways.size(); ++i)
-            points_[i + 1].t = points_[i].t + 2.0 * ways[i] / (points_[i].speed + points_[i + 1].speed);
+        for (std::size_t i = 0; i < distances.size(); ++i)
+            points_[i + 1].t = points_[i].t + 2.0 * distances[i] / (points_[i].speed + points_[i + 1].speed);
     }
 
     std::pair<double, double> StretchGuess::fastest() const
@@ -163,12 +164,12 @@ namespace parking
                                            [](double value, const GuessPoint &point) { return value < point.t; });
         const GuessPoint &a = *(next - 1), &b = *next;
         const double part = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
-        // Speed is linear in time, and the way therefore quadratic.
+        // Speed is linear in time, and the distance therefore quadratic.
         const double mean = 0.5 * (a.speed + b.speed);
-        const double way = part * (a.speed + 0.5 * part * (b.speed - a.speed)) / mean;
+        const double share = part * (a.speed + 0.5 * part * (b.speed - a.speed)) / mean;
         return {t,
-                {a.pose.x + way * (b.pose.x - a.pose.x), a.pose.y + way * (b.pose.y - a.pose.y),
-                 a.pose.yaw + way * (b.pose.yaw - a.pose.yaw)},
+                {a.pose.x + share * (b.pose.x - a.pose.x), a.pose.y + share * (b.pose.y - a.pose.y),
+                 a.pose.yaw + share * (b.pose.yaw - a.pose.yaw)},
                 a.speed + part * (b.speed - a.speed),
                 a.steering + part * (b.steering - a.steering)};
     }
@@ -208,8 +209,8 @@ namespace parking
             };
             if (points.empty())
                 points.push_back(at(0.0));
-            const double way = from[NODE_DURATION] * 0.5 * (from[NODE_SPEED] + to[NODE_SPEED]);
-            const double parts = std::max(1.0, std::ceil(way / NODE_GRID));
+            const double distance = from[NODE_DURATION] * 0.5 * (from[NODE_SPEED] + to[NODE_SPEED]);
+            const double parts = std::max(1.0, std::ceil(distance / NODE_GRID));
             for (double p = 1.0; p <= parts; p += 1.0)
                 points.push_back(at(p / parts));
             if (k + 1 == problem.directions.size() || problem.directions[k + 1] == 0)

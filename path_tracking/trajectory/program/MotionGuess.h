@@ -10,29 +10,30 @@
 
 namespace parking
 {
-    /** \brief A moment of a guessed motion. */
+    /** \brief Point of a guessed motion. */
     struct GuessPoint
     {
-        double t{0.0};         ///< seconds since the begin of the stretch
+        double t{0.0};         ///< seconds since the start of the stretch
         Pose pose;             ///< yaw not wrapped
         double speed{0.0};     ///< m/s, not negative
         double steering{0.0};  ///< radians
     };
 
-    /** \brief How a stretch of a path might be driven: along the path as fast as the acceleration allows, the steering
-        angle smoothed over some way round its jumps, however fast the wheels would have to turn. Where an optimisation
-        begins: nodes that are spread evenly over such a drive leave it the most freedom. */
+    /** \brief Initial guess of a drive along a stretch, as fast as the acceleration allows.
+
+        The steering angle is smoothed near its jumps; the guess ignores the steering rate. Nodes spread evenly over
+        such a drive give the optimisation the most freedom. */
     class StretchGuess
     {
     public:
         /** \param path in one direction, without turns on the spot */
         StretchGuess(const Path &path, const Vehicle &vehicle);
 
-        /** \brief A drive through poses, whose steering angles are taken as they are.
-            \param points two at least, in order, with pose and steering angle; time and speed are made anew */
+        /** \brief A drive through given poses and steering angles.
+            \param points at least two, in order, with pose and steering angle; times and speeds are recomputed */
         StretchGuess(int direction, std::vector<GuessPoint> points, const Vehicle &vehicle);
 
-        /** \brief 1 forwards, -1 in reverse. */
+        /** \brief Direction: 1 forwards, -1 in reverse. */
         int direction() const
         {
             return direction_;
@@ -44,42 +45,42 @@ namespace parking
             return points_;
         }
 
-        /** \brief Metres. */
+        /** \brief Length in metres. */
         double length() const;
 
-        /** \brief Seconds. */
+        /** \brief Duration in seconds. */
         double duration() const
         {
             return points_.back().t;
         }
 
-        /** \brief When it ceases to speed up, and when it begins to brake: seconds, of a short stretch the same twice.
-         */
+        /** \brief Times at which acceleration ends and braking begins, in seconds. They are equal for a short
+            stretch. */
         std::pair<double, double> fastest() const;
 
-        /** \brief At \e t seconds, cut to the stretch. */
+        /** \brief The point at \e t seconds, clamped to the stretch. */
         GuessPoint at(double t) const;
 
     private:
-        void setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle);
+        void setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle);
 
         int direction_;
         std::vector<GuessPoint> points_;
     };
 
-    /** \brief The stretches of a path; yaw continuous along it. */
+    /** \brief Guesses for the stretches of a path; yaw is continuous along them. */
     std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle);
 
-    /** \brief The stretches of the motion whose nodes a problem has, in order. */
+    /** \brief The stretches of the motion given by the nodes of a problem, in order. */
     std::vector<StretchGuess> stretchesOf(const MotionProblem &problem, const Vehicle &vehicle);
 
     /** \brief The stretches without one of them.
 
-        Its neighbours are cut where they come nearest to each other, or to the end of the motion if it was the first or
-        the last, and bent to meet there. So they are a guess: no car can drive the bend exactly, and it may touch
-        something. Neighbours on both sides become one stretch: between two cusps, two cusps go.
+        Its neighbours are cut at their nearest points and bent to meet there. If it was the first or last stretch, its
+        neighbour is cut nearest to the end of the motion. The result is a guess only: no car drives the bend exactly,
+        and it may collide. Neighbours on both sides become one stretch, so that two cusps disappear.
 
-        \return nothing when there would be no stretch left */
+        \return nothing if no stretch would remain */
     std::vector<StretchGuess> withoutStretch(const std::vector<StretchGuess> &stretches, std::size_t index,
                                              const Vehicle &vehicle);
 }  // namespace parking

@@ -9,8 +9,8 @@ namespace parking
     namespace
     {
         constexpr double FEWEST_INTERVALS = 8.0;   // of a stretch
-        constexpr double FEWEST_OF_PART = 3.0;     // that speed up, and that brake, of one that does
-        constexpr double LONG_AT_SPEED = 2.0;      // steps at full speed that make a phase
+        constexpr double FEWEST_OF_PART = 3.0;     // of its acceleration and of its braking
+        constexpr double LONG_AT_SPEED = 2.0;      // steps at full speed that form a phase
         constexpr double SPARE_STANDSTILL = 0.02;  // seconds
 
         constexpr int bit(int entry)
@@ -77,8 +77,8 @@ namespace parking
         phaseEnds_.push_back(endsPhase ? 1 : 0);
     }
 
-    /** Phases end where the guess ceases to speed up and begins to brake: the program can then put a node exactly where
-        that is best. Between nodes the speed is linear, and without one at its peak the peak is lost. */
+    /** Phases end where the guess stops accelerating and starts braking, so that the program can place a node there.
+        The speed is linear between nodes: without a node at its peak the peak is lost. */
     void MotionOutline::addStretch(std::size_t index, double step)
     {
         const StretchGuess &guess = guesses_[index];
@@ -143,8 +143,8 @@ namespace parking
             const Pose from = poseAt(k, 0.0), to = poseAt(k, 1.0);
             if (points.empty())
                 points.push_back({k, 0.0, from, true});
-            const double way = positionDistance(from, to) + 0.5 * wheelbase * std::abs(to.yaw - from.yaw);
-            const double parts = std::max(1.0, std::ceil(way / spacing));
+            const double distance = positionDistance(from, to) + 0.5 * wheelbase * std::abs(to.yaw - from.yaw);
+            const double parts = std::max(1.0, std::ceil(distance / spacing));
             for (double p = 1.0; p <= parts; p += 1.0)
                 points.push_back({k, p / parts, poseAt(k, p / parts), false});
         }

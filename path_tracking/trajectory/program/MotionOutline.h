@@ -14,26 +14,26 @@ namespace parking
 {
     /** \brief The nodes of a motion program along guessed stretches, and the guessed poses between them.
 
-        Every stretch is cut into intervals of equal duration. Between two stretches there is a standstill, and one at
-        each end where the angle of the wheels is prescribed. */
+        Each stretch is split into intervals of equal duration. A standstill lies between two stretches, and at each end
+        with a prescribed steering angle. */
     class MotionOutline
     {
     public:
-        /** \param guesses one at least, a stretch each
-            \param step seconds that an interval lasts, about
-            \param initialSteering, finalSteering radians; without them the wheels are free there
-            \param inPhases whether a stretch is cut where it is fastest, see MotionProblem::phaseEnds; else its
-            intervals last equally long */
+        /** \param guesses at least one, each for a stretch
+            \param step seconds per interval, approximately
+            \param initialSteering, finalSteering radians; if absent, the steering is free there
+            \param inPhases whether a stretch is split where it is fastest, see MotionProblem::phaseEnds; otherwise its
+            intervals have equal durations */
         MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
                       std::optional<double> initialSteering, std::optional<double> finalSteering, bool inPhases = true);
 
-        /** \brief Seconds that driving along the path takes when the wheels need no time to turn. */
+        /** \brief Seconds of the drive along the path if the car could steer instantly. */
         double duration() const;
 
-        /** \brief Writes directions, phases, nodes and what is fixed of them. */
+        /** \brief Writes directions, phases, nodes and fixed entries. */
         void write(MotionProblem &problem) const;
 
-        /** \brief The guessed pose at a fraction of an interval; yaw continuous along the motion. */
+        /** \brief The guessed pose at a fraction of an interval. Yaw is continuous along the motion. */
         Pose poseAt(std::size_t interval, double fraction) const;
 
     private:
@@ -45,15 +45,15 @@ namespace parking
         bool inPhases_;
         std::vector<StretchGuess> guesses_;
         std::vector<std::size_t> guessOf_;  // per interval
-        std::vector<double> begins_;        // per interval: seconds since the begin of the stretch
+        std::vector<double> begins_;        // per interval: seconds since the start of the stretch
         std::vector<int> directions_;
         std::vector<std::uint8_t> phaseEnds_;
         std::vector<NodeVector> nodes_;
         std::vector<std::uint8_t> fixed_;
     };
 
-    /** \brief Checkpoints at every node but the standing ones, and between them so that the motion goes no more than
-        \e spacing metres from each to the next. The first and the last are fixed.
+    /** \brief Checkpoints at every node except standstills, and between them at most \e spacing metres apart. The first
+        and the last are fixed.
 
         \param directions per interval, 0 for a standstill
         \param poseAt the pose at a fraction of an interval */

@@ -6,9 +6,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double AT_LIMIT = 0.97;  // share of a limit from which on it counts as used up
+        constexpr double AT_LIMIT = 0.97;  // share of a limit above which it is active
 
-        /** What an interval uses of the limit of acceleration or steering rate, in [-1, 1]. */
+        /** Utilisation of the limit of acceleration or steering rate by an interval, in [-1, 1]. */
         double shareOfLimit(const MotionProblem &problem, std::size_t interval, int entry)
         {
             const NodeVector &from = problem.nodes[interval], &to = problem.nodes[interval + 1];
@@ -17,7 +17,7 @@ namespace parking
             return (to[entry] - from[entry]) / (from[NODE_DURATION] * limit);
         }
 
-        /** 1 and -1 where a limit is used up, 0 between. */
+        /** 1 and -1 at an active limit, 0 between. */
         int limitOf(double share)
         {
             return share > AT_LIMIT ? 1 : share < -AT_LIMIT ? -1 : 0;
@@ -37,7 +37,7 @@ namespace parking
         TimedMotion motion{start, {}};
         for (std::size_t k = 0; k < problem.nodes.size(); ++k)
         {
-            // A node between a standstill and a drive is at rest, whatever the direction.
+            // A node between a standstill and a drive is at rest, in either direction.
             const int before = k > 0 ? problem.directions[k - 1] : 0;
             const int behind = k < problem.directions.size() ? problem.directions[k] : 0;
             motion.append(k > 0 ? problem.nodes[k - 1][NODE_DURATION] : 0.0,
@@ -60,7 +60,7 @@ namespace parking
                              behind = shareOfLimit(problem, k + 1, entry);
                 if (limitOf(here) != 0 || limitOf(before) == limitOf(behind))
                     continue;
-                // The share of the interval that goes on as before; the node that is nearer to the change may move.
+                // The share of the interval with the previous value; the node nearer to the change may move.
                 const double part = (here - behind) / (before - behind);
                 problem.phaseEnds[part < 0.5 ? k - 1 : k] = 1;
             }

@@ -13,7 +13,7 @@
 
 namespace parking
 {
-    /** \brief Which entry of a node is what. */
+    /** \brief Index of an entry of a node. */
     enum NodeEntry : int
     {
         NODE_X,         ///< metres
@@ -21,21 +21,23 @@ namespace parking
         NODE_YAW,       ///< radians, not wrapped
         NODE_SPEED,     ///< m/s in the direction of the interval, not negative
         NODE_STEERING,  ///< radians
-        NODE_DURATION   ///< seconds of the interval that begins at the node
+        NODE_DURATION   ///< seconds of the interval that follows the node
     };
 
-    /** \brief A demand on a pose that keeps the body apart from something.
+    /** \brief A constraint on a pose that keeps the body away from an obstacle.
 
-        Either a corner of the body has to stay beyond a line of the world, or a point of the world has to stay beyond a
-        side of the body. */
+        Either a corner of the body must stay beyond a line of the world, or a point of the world beyond a side of the
+        body. */
     struct BodyRow
     {
-        bool ofBody{false};      ///< the line is a side of the body
+        bool ofBody{false};      ///< whether the line is a side of the body
         Eigen::Vector2d normal;  ///< of the line, of unit length; in the frame of the car if ofBody
-        Eigen::Vector2d point;   ///< that has to stay beyond it: of the body in its frame, or if ofBody of the world
-        double offset{0.0};      ///< of the line along its normal, with the margin
+        /** The point that must stay beyond the line; of the world if ofBody, else in the frame of the body. */
+        Eigen::Vector2d point;
+        double offset{0.0};  ///< of the line along its normal, including the margin
 
-        /** \brief How far the point is beyond the line, metres; negative when it is not.
+        /** \brief Distance of the point beyond the line in metres, negative on the wrong side.
+            \param x, y metres, position
             \param cosine, sine of the yaw */
         double value(double x, double y, double cosine, double sine) const
         {
@@ -47,58 +49,60 @@ namespace parking
         }
     };
 
-    /** \brief Where along an interval rows have to hold. */
+    /** \brief Position along an interval at which rows must hold. */
     struct MotionCheckpoint
     {
         std::size_t interval{0};  ///< index into MotionProblem::directions
         double fraction{1.0};     ///< of the interval's time, above 0 and up to 1
-        std::size_t firstRow{0};  ///< into the rows of the problem
-        std::size_t lastRow{0};   ///< one behind
-        double way{0.0};          ///< metres driven for which it stands
+        std::size_t firstRow{0};  ///< index of the first row of the problem
+        std::size_t lastRow{0};   ///< index after the last row
+        double way{0.0};          ///< driven metres that the checkpoint represents
     };
 
-    /** \brief What is counted as the cost of a motion. */
+    /** \brief Weights of the cost of a motion. */
     struct MotionWeights
     {
         double time{1.0};      ///< per second
-        double effort{0.0};    ///< of the integral of a^2 + (v w)^2, with the steering rate w
-        double steering{0.0};  ///< of the integral of the squared steering angle
-        double nearness{0.0};  ///< per metre driven in touch with what a row keeps apart, see MotionProblem::clearance
+        double effort{0.0};    ///< per integral of a^2 + (v w)^2, with the steering rate w
+        double steering{0.0};  ///< per integral of the squared steering angle
+        double nearness{0.0};  ///< per metre driven in contact with a row's obstacle, see MotionProblem::clearance
     };
 
-    /** \brief A search for the best motion nearby, as a nonlinear program.
+    /** \brief The search for a locally optimal motion, as a nonlinear program.
 
-        Nodes in time, with an interval between each and the next. Speed and steering are linear over an interval, so
-        that the limits of acceleration and steering rate are linear in the nodes. The poses of neighbouring nodes are
-        joined by Hermite-Simpson collocation (C. R. Hargraves and S. W. Paris, "Direct trajectory optimization using
-        nonlinear programming and collocation", 1987), and the pose within an interval is the cubic Hermite polynomial
-        of its ends. A stretch consists of phases, and intervals of one phase last equally long: where a phase ends, a
-        node can be where the car begins to brake or the wheels begin to turn back. At a standstill the pose stays. */
+        It has nodes in time with intervals between them. Speed and steering are linear over an interval. Therefore the
+        limits of acceleration and steering rate are linear in the nodes.
+
+        Hermite-Simpson collocation joins the poses of adjacent nodes (C. R. Hargraves and S. W. Paris, "Direct
+        trajectory optimization using nonlinear programming and collocation", 1987). The pose within an interval is the
+        cubic Hermite polynomial of its ends.
+
+        A stretch consists of phases, and the intervals of a phase have equal durations. At the end of a phase, a node
+        can lie where the car begins to brake or to steer back. At a standstill the pose is constant. */
     struct MotionProblem
     {
         Vehicle vehicle;        ///< the limits, and the wheelbase
-        MotionWeights weights;  ///< what counts as the cost
-        /** Metres beyond a row from which on it costs nothing to be near; nearer the price grows with the square of
-            what is missing. */
+        MotionWeights weights;  ///< of the cost
+        /** Metres from a row within which proximity is penalised; the penalty is quadratic in the missing distance. */
         double clearance{0.0};
-        double leastDuration{0.01};       ///< seconds, of an interval that drives
+        double minDuration{0.01};         ///< seconds, of a driving interval
         std::vector<int> directions;      ///< per interval: 1 forwards, -1 in reverse, 0 at a standstill
-        std::vector<NodeVector> nodes;    ///< one more than intervals: where to begin
-        std::vector<std::uint8_t> fixed;  ///< per node, bit by bit: entries that keep their value
-        /** Per interval: whether a phase ends with it, within a stretch; empty where each stretch is one phase. */
+        std::vector<NodeVector> nodes;    ///< initial nodes, one more than intervals
+        std::vector<std::uint8_t> fixed;  ///< per node: bit mask of fixed entries
+        /** Per interval: whether a phase ends with it within a stretch. Empty if each stretch is one phase. */
         std::vector<std::uint8_t> phaseEnds;
-        /** Per interval: x, y and yaw by which it leads farther than its collocation says; empty for no difference. */
+        /** Per interval: correction of x, y and yaw added to its collocation. Empty for none. */
         std::vector<Eigen::Vector3d> corrections;
         std::vector<MotionCheckpoint> checkpoints;  ///< by interval
-        std::vector<BodyRow> rows;                  ///< demands on poses, grouped by checkpoint
+        std::vector<BodyRow> rows;                  ///< constraints on poses, grouped by checkpoint
 
-        /** \brief Does this entry of a node keep its value? */
+        /** \brief Whether an entry of a node is fixed. */
         bool isFixed(std::size_t node, int entry) const
         {
             return (fixed[node] >> entry & 1) != 0;
         }
 
-        /** \brief Does an interval last as long as the one behind it? Two stretches have a standstill between them. */
+        /** \brief Whether an interval has the same duration as its successor. A standstill separates two stretches. */
         bool sharesDuration(std::size_t interval) const
         {
             return interval + 1 < directions.size() && directions[interval] != 0 && directions[interval + 1] != 0 &&
@@ -109,21 +113,20 @@ namespace parking
         Pose poseAt(std::size_t interval, double fraction) const;
     };
 
-    /** \brief The motion whose speeds and steering angles the nodes of a problem have.
-        \param start its first pose, which may be in other coordinates than those of the problem */
+    /** \brief The motion with the speeds and steering angles of the nodes of a problem.
+        \param start its first pose, which may be in other coordinates than the problem's */
     TimedMotion motionOf(const MotionProblem &problem, const Pose &start);
 
-    /** \brief Ends phases beside intervals in which the solution changes from one limit to another: of acceleration, or
-        of the steering rate. Solved once more, a node can then be where that change is. Phases that end already go on
-        doing so.
+    /** \brief Ends phases near intervals in which the solution switches between limits of acceleration or steering
+        rate. In the next solution, a node can lie at that change. Existing ends of phases are kept.
 
-        Between two nodes neither changes, so that a change between nodes costs time. Phases that end everywhere would
-        do, too, but leave it undecided how nodes are spread where nothing changes, and take thrice as many
-        iterations. */
+        Acceleration and steering rate are constant between two nodes, so a change between nodes costs time. If every
+        interval ended a phase, the distribution of nodes would be undetermined, and solving would take three times as
+        many iterations. */
     void endPhasesAtChanges(MotionProblem &problem);
 
-    /** \brief Writes MotionProblem::corrections: where the intervals lead when they are integrated, less what
-        collocation says. Solved once more, the nodes are then where the car is. Along hundreds of metres the errors of
-        collocation, some hundredths of a millimetre each, add up to a centimetre. */
+    /** \brief Computes MotionProblem::corrections as the difference between integration and collocation. In the next
+        solution, the nodes match the integrated motion. Collocation errors of hundredths of a millimetre accumulate to
+        a centimetre over hundreds of metres. */
     void correctIntervals(MotionProblem &problem);
 }  // namespace parking

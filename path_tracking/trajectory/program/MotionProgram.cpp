@@ -91,7 +91,7 @@ namespace parking
                 limits_.push_back({{H, NODE_SPEED, SECOND + NODE_SPEED}, {car.maxAcceleration, sign, -sign}, 0.0});
         }
         if (drives && (k == 0 || !problem_.sharesDuration(k - 1)))
-            limits_.push_back({{H, H, H}, {1.0, 0.0, 0.0}, -problem_.leastDuration});
+            limits_.push_back({{H, H, H}, {1.0, 0.0, 0.0}, -problem_.minDuration});
     }
 
     Eigen::Vector4d MotionProgram::jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
@@ -155,7 +155,7 @@ namespace parking
             rows(3, NODE_DURATION) = -1.0;
             rows(3, SECOND + NODE_DURATION) = 1.0;
         }
-        // Entries that keep their value are no variables.
+        // Fixed entries are not variables.
         for (int e = 0; e < NODE_SIZE; ++e)
         {
             if (problem_.isFixed(k, e))

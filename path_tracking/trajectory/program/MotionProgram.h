@@ -14,19 +14,20 @@ namespace parking
     /** \brief Multipliers and slacks of an interior point method for a MotionProgram. */
     struct MotionDuals
     {
-        std::vector<Eigen::Vector4d> joints;  ///< y, of the joints
-        std::vector<double> prices;           ///< z, of the inequalities
-        std::vector<double> slacks;           ///< s, what the inequalities should be worth
+        std::vector<Eigen::Vector4d> joints;  ///< multipliers y of the joints
+        std::vector<double> prices;           ///< multipliers z of the inequalities
+        std::vector<double> slacks;           ///< slacks s, the required values of the inequalities
     };
 
     /** \brief The functions of a MotionProblem, their derivatives, and the linear systems of an interior point method.
 
-        Minimise the cost f(n) over the nodes n, where the joints c(n) = 0 and the inequalities g(n) >= 0. Per interval
-        there are four joints: x, y, yaw, and that it lasts as long as the next. All derivatives are exact. */
+        It minimises the cost f(n) over the nodes n, subject to the joints c(n) = 0 and the inequalities g(n) >= 0. Each
+        interval has four joints: x, y, yaw, and equality of its duration with the next one. All derivatives are
+        exact. */
     class MotionProgram
     {
     public:
-        /** \brief Takes over a problem, and makes the inequalities of its limits. */
+        /** \brief Takes over a problem and creates the inequalities of its limits. */
         explicit MotionProgram(MotionProblem problem);
 
         /** \brief The problem as given. */
@@ -35,7 +36,7 @@ namespace parking
             return problem_;
         }
 
-        /** \brief Number of intervals, one less than of nodes. */
+        /** \brief Number of intervals, one less than the number of nodes. */
         std::size_t intervals() const
         {
             return problem_.directions.size();
@@ -47,46 +48,46 @@ namespace parking
             return limits_.size() + problem_.rows.size();
         }
 
-        /** \brief f, c and g at \e nodes, and what linearize() needs of them. \return f */
+        /** \brief Evaluates f, c and g at \e nodes, and prepares linearize(). \return f */
         double evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
                         std::vector<double> &values);
 
-        /** \brief Linearises everything at the nodes that were evaluated last: after it, and until other nodes are
-            evaluated, system(), right(), the gradients and apply() are valid.
+        /** \brief Linearises the program at the nodes evaluated last. Afterwards system(), right(), the gradients and
+            apply() are valid until the next evaluation.
 
-            The system is that of Newton's method for the barrier problem, with inequalities and joints eliminated:
-            W + G^T (z / s) G + A^T A / \e softness. */
+            The system is that of Newton's method for the barrier problem, with inequalities and joints eliminated: W +
+            G^T (z / s) G + A^T A / \e softness. */
         void linearize(const MotionDuals &duals, double softness);
 
-        /** \brief The matrix of the linearisation, to be factorised by the caller. */
+        /** \brief The matrix of the linearisation, for factorisation by the caller. */
         BlockTridiagonal &system()
         {
             return system_;
         }
 
-        /** \brief The right side of the linear system with \e barrier (mu), a vector for each node. */
+        /** \brief The right side of the linear system at \e barrier (mu), one vector per node. */
         std::vector<NodeVector> right(double barrier) const;
 
-        /** \brief Gradient of the Lagrangian f + y c - z g. */
+        /** \brief The gradient of the Lagrangian f + y c - z g. */
         const std::vector<NodeVector> &gradient() const
         {
             return gradient_;
         }
 
-        /** \brief Gradient of f. */
+        /** \brief The gradient of f. */
         const std::vector<NodeVector> &costGradient() const
         {
             return costGradient_;
         }
 
-        /** \brief A times \e step and G times \e step, of the linearisation. */
+        /** \brief Computes A times \e step and G times \e step, with the Jacobians of the linearisation. */
         void apply(const std::vector<NodeVector> &step, std::vector<Eigen::Vector4d> &joints,
                    std::vector<double> &values) const;
 
     private:
         using JointRows = Eigen::Matrix<double, 4, PAIR_SIZE>;
 
-        /** coefficient . (three entries of the two nodes of an interval) + constant >= 0. */
+        /** Inequality: coefficient . (three entries of the two nodes of an interval) + constant >= 0. */
         struct Limit
         {
             std::array<int, 3> entry;
@@ -101,7 +102,7 @@ namespace parking
             }
         };
 
-        /** What a metre nearer to a row costs, and how much that grows with it. */
+        /** Proximity cost per metre at a row, and its slope. */
         struct Nearness
         {
             double price{0.0}, growth{0.0};
@@ -124,7 +125,7 @@ namespace parking
         std::vector<std::size_t> firstCheckpoint_;  // per interval and one more
         std::vector<Eigen::Vector4d> weights_;      // per checkpoint: of the Hermite polynomial
 
-        /** Where the car is at a checkpoint. */
+        /** Pose of the car at a checkpoint. */
         struct CheckedPose
         {
             Eigen::Vector3d pose;

@@ -11,22 +11,22 @@ namespace parking
 {
     namespace
     {
-        /** Share of the largest gap with which the line of the checkpoint before is kept. */
+        /** Share of the largest gap above which the line of the previous checkpoint is kept. */
         constexpr double KEEP = 0.8;
         constexpr double INF = std::numeric_limits<double>::infinity();
-        /** Metres beyond what a checkpoint needs that its neighbours may use, too. */
+        /** Metres by which the region of candidates exceeds that of a checkpoint, for its neighbours. */
         constexpr double PART = 3.0;
-        constexpr int MOST_REFINEMENTS = 5;
-        /** Metres within which pieces matter that are known to be in the way. */
+        constexpr int MAX_REFINEMENTS = 5;
+        /** Metres within which pieces known to cause collisions are considered. */
         constexpr double KNOWN_RANGE = 15.0;
-        /** Metres of overlap that a change of lines may ask for before poses are put between. */
+        /** Maximum overlap in metres required by a change of lines; above it poses are inserted. */
         constexpr double WORST_SWITCH = 0.01;
-        /** Share of the largest gap with which a side of the body that is watched anyway serves a piece. */
+        /** Share of the largest gap above which an already used side of the body separates another piece. */
         constexpr double SERVES = 0.8;
-        /** Tangent of the angle by which a body never turns between what is guessed and what is found. */
+        /** Tangent of the maximum angle between guess and solution. */
         constexpr double STEEPEST = 1.0;
-        /** A corner of the body that is farther from a line than the nearest by more than this, metres, never gets
-            there first. */
+        /** Metres: corners of the body that are farther from a line than the nearest one by more than this are
+            ignored. */
         constexpr double IRRELEVANT = 1.5;
 
         const std::array<Eigen::Vector2d, 4> SIDE_NORMALS{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0),
@@ -94,7 +94,7 @@ namespace parking
             for (const Choice &choice : place.choices)
                 if (place.point.fixed)
                     margins_[choice.piece] = std::min(margins_[choice.piece], std::max(0.0, 0.5 * choice.gap));
-        for (int i = 0; i < MOST_REFINEMENTS && refine(poseAt, interrupted); ++i)
+        for (int i = 0; i < MAX_REFINEMENTS && refine(poseAt, interrupted); ++i)
         {
         }
         joinNeighbours();
@@ -194,7 +194,7 @@ namespace parking
 
     void SeparationPlan::share(Place &place) const
     {
-        // Nearest first: the lines that matter most serve the pieces behind them too.
+        // Nearest first: these lines also separate the pieces behind them.
         std::vector<std::size_t> order(place.choices.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::stable_sort(order.begin(), order.end(),
@@ -215,7 +215,7 @@ namespace parking
                 choice.line = *serving;
                 continue;
             }
-            // A side of the body that is watched anyway will do if it is nearly as good.
+            // An already used side of the body suffices if it is nearly as good.
             for (std::size_t side = 0; side < 4 && !choice.line.ofBody; ++side)
                 if (bodySides[side] && gap(place, {true, 0, side}, choice.piece) >= SERVES * std::abs(choice.gap))
                     choice.line = {true, 0, side};
@@ -290,7 +290,7 @@ namespace parking
         const Eigen::Vector2d &m = SIDE_NORMALS[side];
         const Eigen::Vector2d out(place.cosine * m.x() - place.sine * m.y(), place.sine * m.x() + place.cosine * m.y());
         const double distance = side == 0 ? front_ : side == 2 ? rear_ : half_;
-        /** A corner by how far it is along and beyond the side. */
+        /** A corner with its positions along and beyond the side. */
         struct Corner
         {
             double along, beyond;
@@ -308,7 +308,7 @@ namespace parking
         std::sort(corners.begin(), corners.end(),
                   [](const Corner &a, const Corner &b)
                   { return a.along != b.along ? a.along < b.along : a.beyond < b.beyond; });
-        // A line that has the nearest hull on one side has them all there.
+        // A line with the nearest hull on one side has all of them there.
         std::vector<Corner> hull;
         for (const Corner &corner : corners)
         {
@@ -329,7 +329,7 @@ namespace parking
         }
         for (std::size_t i = 0; i < hull.size(); ++i)
         {
-            // The sides of the hull tell by how much the body would have to turn to get to a corner first.
+            // The sides of the hull define the turn of the body at which a corner is reached first.
             const auto slope = [&](std::size_t a, std::size_t b)
             {
                 return (hull[b].beyond - hull[a].beyond) / (hull[b].along - hull[a].along);

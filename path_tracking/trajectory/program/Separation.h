@@ -12,55 +12,57 @@
 
 namespace parking
 {
-    /** \brief A line that keeps a body and a convex piece apart: a side of either. */
+    /** \brief A line that separates a body from a convex piece: a side of one of them. */
     struct Separator
     {
-        bool ofBody{false};    ///< of the body, and otherwise of the piece
-        std::size_t piece{0};  ///< whose side it is, unless of the body
+        bool ofBody{false};    ///< whether it is a side of the body, otherwise of the piece
+        std::size_t piece{0};  ///< index of the piece, unless a side of the body
         std::size_t side{0};   ///< of the body: 0 front, 1 left, 2 rear, 3 right
 
-        /** \brief Are they the same side? */
+        /** \brief Whether both are the same side. */
         bool operator==(const Separator &other) const
         {
             return ofBody == other.ofBody && side == other.side && (ofBody || piece == other.piece);
         }
     };
 
-    /** \brief Where separation is asked for: a pose of a guessed motion. */
+    /** \brief A pose of a guessed motion at which separation is required. */
     struct GuessedCheckpoint
     {
         std::size_t interval{0};  ///< index into MotionProblem::directions
         double fraction{1.0};     ///< of the interval
         Pose pose;                ///< guessed there
-        bool fixed{false};        ///< the pose keeps what it is: nothing is demanded of it
+        bool fixed{false};        ///< whether the pose is fixed, and needs no constraints
     };
 
-    /** \brief What SeparationPlan needs to know. */
+    /** \brief Options of a SeparationPlan. */
     struct SeparationOptions
     {
         double margin{0.002};            ///< metres between body and obstacles
-        double range{1.0};               ///< metres within which pieces matter
-        std::vector<std::size_t> known;  ///< pieces that are known to be in the way: they matter within 15 m
+        double range{1.0};               ///< metres within which pieces are considered
+        std::vector<std::size_t> known;  ///< pieces known to cause collisions; they are considered within 15 m
     };
 
-    /** \brief Chooses lines that keep a moving body apart from obstacles.
+    /** \brief Chooses lines that separate a moving body from obstacles.
 
-        At every checkpoint each piece nearby gets the line with the largest gap, of the sides of piece and body
-        (separating axes). A piece that lies wholly behind the line of another needs none of its own. Where the line for
-        a piece changes from one checkpoint to the next, one of the two has to satisfy both: else a corner can slip
-        through in between. Where that would ask for more than a centimetre of overlap, checkpoints are put between. */
+        At every checkpoint each nearby piece receives the line with the largest gap, among the sides of piece and body
+        (separating axes). A piece wholly behind the line of another needs no line of its own.
+
+        If the line for a piece changes between two checkpoints, one of the two must satisfy both lines. Otherwise a
+        corner could cross in between. If that would require more than a centimetre of overlap, checkpoints are
+        inserted. */
     class SeparationPlan
     {
     public:
-        /** \brief \param poseAt the guessed pose at a fraction of an interval
-            \param interrupted asked at every checkpoint; once it says yes nothing more is done, and the plan is not
-            complete; may be empty */
+        /** \param poseAt the guessed pose at a fraction of an interval
+            \param interrupted polled at every checkpoint; once it returns true, the plan remains incomplete; may be
+            empty */
         SeparationPlan(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle, SeparationOptions options,
                        std::vector<GuessedCheckpoint> checkpoints,
                        const std::function<Pose(std::size_t interval, double fraction)> &poseAt,
                        const std::function<bool()> &interrupted = {});
 
-        /** \brief Whether it was not interrupted. One that was is of no use. */
+        /** \brief Whether the plan was not interrupted. An incomplete plan cannot be used. */
         bool isComplete() const
         {
             return isComplete_;
@@ -69,7 +71,7 @@ namespace parking
         /** \brief Writes checkpoints and rows into \e problem. */
         void write(MotionProblem &problem) const;
 
-        /** \brief The pieces that matter at the first checkpoint. */
+        /** \brief The pieces considered at the first checkpoint. */
         std::vector<std::size_t> nearFirst() const;
 
     private:
@@ -115,7 +117,7 @@ namespace parking
         bool isComplete_{true};
     };
 
-    /** \brief The pieces that are within \e range metres of a body at \e pose. */
+    /** \brief The pieces within \e range metres of a body at \e pose. */
     std::vector<std::size_t> piecesNear(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
                                         const Pose &pose, double range);
 }  // namespace parking

@@ -70,7 +70,7 @@ class TrackTest(ProgramTest):
         both = on_the_spot + ['--trajectory', '--track', '--svg', 'a.svg']
         result = self.planned(*both)
         why = result['tracking']['message']
-        self.assertRegex(why, r'^there is no trajectory to drive: piece \d+ of the path turns on the spot; no car can$')
+        self.assertRegex(why, r'^there is no trajectory to drive: piece \d+ of the path turns on the spot, which no car can do$')
         self.assertEqual(result['tracking'], {'arrived': False, 'message': why})
         self.assertEqual((result['trajectory'], result['planned_trajectory']), ([], []))
         self.assertIn('turns on the spot', result['trajectory_optimization']['message'])

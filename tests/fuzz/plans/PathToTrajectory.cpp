@@ -36,7 +36,7 @@ namespace parking_test::fuzz
                         touched = touched || parking::test::touches(state.pose, car, polygons);
                     reached(touched ? "touches" : isPathFree(checker, path) ? "free" : "near or between samples");
                     parking::TrajectoryOptions options;
-                    options.mostRounds = 2;
+                    options.maxRounds = 2;
                     const parking::TrajectoryOptimizer optimizer(checker, options);
                     std::size_t asked = 0;
                     const parking::OptimizedTrajectory found =

@@ -74,7 +74,7 @@ namespace parking::test
                           const Measurement &now, const Plant &plant)
                       {
                           steering.learn(PERIOD, command.steering - before.steering, before.steering - last.steering,
-                                         command.steering - now.steering, LagEstimator::LEAST_ANGLE);
+                                         command.steering - now.steering, LagEstimator::MIN_ANGLE);
                           acceleration.learn(PERIOD, command.acceleration, last.speed, now.speed);
                           worst = std::abs(acceleration.acceleration() - plant.state().acceleration / 0.95);
                       });

@@ -34,7 +34,7 @@ namespace parking::test
                         controller.setGuard(
                             [&way](const TrackingStep &step)
                             {
-                                way = step.stoppingWay;
+                                way = step.stoppingPath;
                                 return true;
                             });
                         Plant plant(Vehicle(), odds, path.start, 0.0, 0.005);
@@ -65,7 +65,7 @@ namespace parking::test
             const Path path = winding(1.0);
             TrackingController controller(path, Vehicle());
             // Nothing beyond 6 m.
-            controller.setGuard([](const TrackingStep &step) { return step.stoppingWay.end().x < 6.0; });
+            controller.setGuard([](const TrackingStep &step) { return step.stoppingPath.end().x < 6.0; });
             Plant plant(Vehicle(), {}, path.start, 0.0, 0.005);
             bool blocked = false;
             int slowed = 0;
@@ -87,12 +87,12 @@ namespace parking::test
         {
             const Path path = winding(1.0);
             double t = 0.0;
-            TrackingParameters patient;
-            patient.guardPatience = 10.0;
-            TrackingController waiting(path, Vehicle(), patient);
+            TrackingParameters withLimit;
+            withLimit.guardWaitLimit = 10.0;
+            TrackingController waiting(path, Vehicle(), withLimit);
             // Something crosses the way for four seconds.
             waiting.setGuard([&t](const TrackingStep &step)
-                             { return t < 2.0 || t > 6.0 || step.stoppingWay.end().x < 5.0; });
+                             { return t < 2.0 || t > 6.0 || step.stoppingPath.end().x < 5.0; });
             Plant plant(Vehicle(), {}, path.start, 0.0, 0.005);
             for (; t < 60.0 && !waiting.finished(); t += 0.1)
             {

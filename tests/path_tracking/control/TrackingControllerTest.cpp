@@ -326,7 +326,7 @@ namespace parking::test
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path, [](double, Measurement &m) { m.steering = 0.1; });
             EXPECT_EQ(drive.mode, TrackingMode::Stopped);
-            EXPECT_EQ(drive.event, "safe stop: the wheels do not follow their command, and have not for 10 s");
+            EXPECT_EQ(drive.event, "safe stop: the wheels have not followed their command for 10 s");
             EXPECT_EQ(drive.fastest, 0.0);
         }
 
@@ -344,7 +344,7 @@ namespace parking::test
                     event = step.event;
             }
             EXPECT_EQ(mode, TrackingMode::Stopped);
-            EXPECT_EQ(event, "safe stop: the car does not move on");
+            EXPECT_EQ(event, "safe stop: the car does not move");
         }
     }  // namespace
 }  // namespace parking::test

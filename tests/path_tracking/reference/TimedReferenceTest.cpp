@@ -135,7 +135,7 @@ namespace parking::test
         }
 
         /** Least duration of a leg, by dynamic programming over the squared speed. */
-        double leastDuration(const ReferencePath &path, std::size_t leg, const SpeedLimits &limits)
+        double minDuration(const ReferencePath &path, std::size_t leg, const SpeedLimits &limits)
         {
             constexpr double STEP = 0.01;      // metres
             constexpr int CELLS_PER_STEP = 8;  // of squared speed that full acceleration passes in one step
@@ -192,7 +192,7 @@ namespace parking::test
                 const TimedReference reference(path, {});
                 for (std::size_t leg = 0; leg < reference.legs().size(); ++leg)
                 {
-                    const double least = leastDuration(path, leg, {});
+                    const double least = minDuration(path, leg, {});
                     EXPECT_LE(reference.legs()[leg].duration, 1.05 * least);
                     EXPECT_GE(reference.legs()[leg].duration, 0.97 * least);
                 }

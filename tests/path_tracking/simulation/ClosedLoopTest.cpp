@@ -308,7 +308,7 @@ namespace parking::test
                 });
             const DriveResult result = loop.drive(path);
             EXPECT_FALSE(result.arrived);
-            EXPECT_EQ(result.message, "safe stop: the monitor asked for it");
+            EXPECT_EQ(result.message, "safe stop: the monitor requested it");
             ASSERT_EQ(result.events.size(), 1u);
             // From at most 2.5 m/s at 1 m/s^2, one period and a bit of 0.3 m later.
             EXPECT_GT(result.trajectory.back().x, 8.0);
@@ -317,11 +317,11 @@ namespace parking::test
         }
 
         /** The drive along a path of which some is driven without a pose. */
-        DriveResult driveBlind(const std::vector<TimeSpan> &spans, double posePatience)
+        DriveResult driveBlind(const std::vector<TimeSpan> &spans, double poseWaitLimit)
         {
             ClosedLoopParameters parameters;
             parameters.disturbances.blind = spans;
-            parameters.tracking.posePatience = posePatience;
+            parameters.tracking.poseWaitLimit = poseWaitLimit;
             return ClosedLoop(Vehicle(), parameters).drive(arcs({1.0, 2.0, 0.5}, {{0.0, 3.0}, {1.0, 4.0}, {0.0, 3.0}}));
         }
 
@@ -333,7 +333,7 @@ namespace parking::test
             EXPECT_TRUE(std::any_of(result.log.begin(), result.log.end(),
                                     [](const DriveRecord &record)
                                     { return record.control.interruption == "the pose was lost"; }));
-            EXPECT_EQ(result.message, "the pose is back");
+            EXPECT_EQ(result.message, "the pose is available again");
             EXPECT_GT(result.trajectory.back().t, 9.6);
             EXPECT_LT(result.trajectory.back().t, 10.3);
             // It goes by speed and wheels until it stands, and its estimate is right afterwards.
@@ -349,7 +349,7 @@ namespace parking::test
             EXPECT_GT(stands, 3.0);
             const DriveResult never = driveBlind({{3.0, 1e9}}, 5.0);
             EXPECT_FALSE(never.arrived);
-            EXPECT_EQ(never.message, "safe stop: the pose was lost, and not back after 5 s");
+            EXPECT_EQ(never.message, "safe stop: the pose was lost and not recovered within 5 s");
             EXPECT_EQ(never.trajectory.back().v, 0.0);
             EXPECT_GT(never.trajectory.back().t, 8.0);
             EXPECT_LT(never.trajectory.back().t, 12.0);

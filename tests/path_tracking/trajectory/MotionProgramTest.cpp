@@ -205,13 +205,13 @@ namespace parking
         TEST(InteriorPoint, AsksInEveryIterationAndStopsWhenItIsTold)
         {
             MotionProgram program(randomProblem(1));
-            for (const std::size_t patience : {0U, 1U, 4U})
+            for (const std::size_t limit : {0U, 1U, 4U})
             {
                 std::size_t asked = 0;
-                const InteriorPointResult result = solveMotion(program, {}, [&] { return asked++ == patience; });
+                const InteriorPointResult result = solveMotion(program, {}, [&] { return asked++ == limit; });
                 EXPECT_EQ(result.status, InteriorPointStatus::Interrupted);
-                EXPECT_EQ(result.iterations, patience);
-                EXPECT_EQ(asked, patience + 1);
+                EXPECT_EQ(result.iterations, limit);
+                EXPECT_EQ(asked, limit + 1);
             }
         }
 

@@ -293,13 +293,13 @@ namespace parking
             const FootprintChecker checker = checkerOf(obstacles);
             const TrajectoryOptimizer optimizer(checker);
             // While lines are chosen, while programs are solved, and between the two.
-            for (const int patience : {0, 1, 2, 5, 20, 50, 100, 150, 200, 300, 500})
+            for (const int limit : {0, 1, 2, 5, 20, 50, 100, 150, 200, 300, 500})
             {
                 int asked = 0;
-                const OptimizedTrajectory found = optimizer.optimize(path, [&] { return ++asked > patience; });
-                EXPECT_LE(asked, patience + 1);
+                const OptimizedTrajectory found = optimizer.optimize(path, [&] { return ++asked > limit; });
+                EXPECT_LE(asked, limit + 1);
                 EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, obstacles).fault, "");
-                if (patience < 5)
+                if (limit < 5)
                 {
                     EXPECT_TRUE(found.fallback);
                     EXPECT_EQ(found.reason, "interrupted");
@@ -317,7 +317,7 @@ namespace parking
             const FootprintChecker checker = checkerOf(walls);
             TrajectoryOptions wide;
             wide.margin = 0.3;
-            wide.mostRounds = 2;
+            wide.maxRounds = 2;
             const OptimizedTrajectory found = TrajectoryOptimizer(checker, wide).optimize(path);
             EXPECT_TRUE(found.fallback);
             EXPECT_FALSE(found.reason.empty());
@@ -337,7 +337,7 @@ namespace parking
                     options.speedShare = options.accelerationShare = options.steeringRateShare = share;
                     const OptimizedTrajectory found = TrajectoryOptimizer(checkerOf({}), options).optimize(path);
                     EXPECT_EQ(found.fallback, path.pieces.size() == 1) << share;
-                    EXPECT_EQ(found.reason, found.fallback ? "stopping to steer is as quick" : "") << share;
+                    EXPECT_EQ(found.reason, found.fallback ? "stopping to steer is equally fast" : "") << share;
                     const std::vector<MotionKnot> &knots = found.motion.knots;
                     for (std::size_t k = 1; k < knots.size(); ++k)
                     {

@@ -30,7 +30,7 @@ namespace parking::test
             };
             const std::string at = " at " + std::to_string(p.t) + " s";
             if (!(h > 0.0))
-                return "time does not go on" + at;
+                return "the time does not increase" + at;
             if (over(q.v, car.maxSpeed))
                 return "too fast" + at;
             if (over((q.v - p.v) / h, car.maxAcceleration))
