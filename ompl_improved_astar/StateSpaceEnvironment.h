@@ -2,9 +2,9 @@
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/StopFunction.h"
+#include "ompl_improved_astar/search/planning/PathStates.h"
 #include "parking_geometry/Box.h"
 #include "parking_geometry/curves/Path.h"
-#include "state_validity/ompl/CurveSpace.h"
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
@@ -16,29 +16,6 @@
 
 namespace parking
 {
-    /** \brief How far apart the states of a path may be for the space's own interpolation to follow the path.
-
-        Of straight lines and turns on the spot the ends suffice everywhere. Spaces of curves go from state to state
-        along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
-        arc and a line. */
-    struct StateSpacing
-    {
-        double onArcs{0.0};                 ///< metres; 0 where the ends of short arcs suffice
-        double onGentleArcs{0.0};           ///< metres; 0 as above
-        double sharpestCurvature{0.0};      ///< 1/m; arcs that turn less are gentle
-        const CurveSpace *curves{nullptr};  ///< of the space, for straightened(); null: nothing is straightened
-    };
-
-    /** \brief The poses of \e path between which the space's own interpolation follows the path. */
-    std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
-
-    /** \brief The poses, and others in between where a Reeds-Shepp space would swerve instead of driving straight on.
-
-        Of straight lines much shorter than the turning radius OMPL misses the shortest curve now and then, because of
-        the last digits of their ends, and takes one of four arcs instead (measured with OMPL 1.5: 4 to 7 % of those up
-        to 4 % of the radius, none from 8 % on, with coordinates below 50 m). Other digits will do. */
-    std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves);
-
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
         Motions are tried by asking for the validity of states along them; paths found are then put to the motion

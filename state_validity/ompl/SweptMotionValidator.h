@@ -3,6 +3,7 @@
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/TierCounters.h"
+#include "state_validity/sweeps/ClearanceProof.h"
 
 #include <memory>
 
@@ -85,28 +86,13 @@ namespace parking
         }
 
     private:
-        /** How much of a motion is proven free: a fraction, and the pose there. */
-        struct Proof
-        {
-            bool whole{false};
-            double fraction{0.0};
-            Pose pose;
-        };
-
         /** \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
-        Proof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
-        Proof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
+        MotionProof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
+        MotionProof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
         /** Does the arc leave what the body all but touches, and is it free? */
         bool isLeaving(const Pose &from, const Arc &arc, CheckCounts &counts) const;
         /** Is the arc free by clearances, beyond those metres that are known to be? */
         bool isPassing(const Pose &from, const Arc &arc, double free, CheckCounts &counts) const;
-        /** \param at the pose at a fraction of the motion
-            \param moved metres that no point of the body exceeds on it */
-        template <class At>
-        Proof proveByClearances(const At &at, double moved, bool exact, CheckCounts &counts) const;
-        /** Metres: nearer than that clearances prove nothing between two poses, which may be near to obstacles. */
-        double toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const;
-        Proof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
 
         CurveSpace space_;
         std::shared_ptr<const FootprintChecker> footprint_;
