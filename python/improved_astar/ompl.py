@@ -70,6 +70,10 @@ def _poseOf(state: ob.State) -> Tuple[float, float, float]:
         raise Error(f'state must be one of an SE2 space, not {type(state).__name__}') from None
 
 
+def _never() -> bool:
+    return False
+
+
 def _isSampling(goal: ob.Goal) -> bool:
     """May goals that are sampled elsewhere, meanwhile, still come?"""
     return isinstance(goal, ob.GoalLazySamples) and goal.isSampling()
@@ -184,7 +188,7 @@ class _World:
         # Once for all queries: OMPL does not free all of a state that Python lets go.
         self._first, self._last = self._space.allocState(), self._space.allocState()
         self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
-        self.isTimeUp: Callable[[], bool] = lambda: False
+        self.isTimeUp: Callable[[], bool] = _never
 
     def freeCounts(self, rows: numpy.ndarray, parts: List[int]) -> Optional[List[int]]:
         """Of each part of the rows, the number of those before the first that is not valid; None: the time is up."""
@@ -279,6 +283,8 @@ class ImprovedAStar(ob.Planner):
         except BaseException:
             self._clearQuery()  # the planner can be used again
             raise
+        finally:
+            self._world.isTimeUp = _never  # nothing is kept of a condition, which may know this planner
 
     def _solve(self, ptc: ob.PlannerTerminationCondition) -> ob.PlannerStatus.PlannerStatusType:
         self.checkValidity()
