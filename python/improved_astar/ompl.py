@@ -440,24 +440,41 @@ class ImprovedAStar(ob.Planner):
         return self._query.pieces if self._query is not None else numpy.empty((0, 4))
 
     def _getPlannerData(self, data: ob.PlannerData) -> None:
-        """Both frontiers, with edges in the direction of driving; the data has its own copies of the states."""
+        """Both frontiers and the last exact solution, with edges in the direction of driving. The data has its own
+        copies of the states."""
         if self._query is None:
             return
-        used = 0
+        spare = iter(self._dataStates)
+
+        def vertex(pose: List[float], tag: int) -> ob.PlannerDataVertex:
+            state = next(spare, None)
+            if state is None:
+                state = self._space.allocState()
+                added.append(state)
+            return ob.PlannerDataVertex(_put(state, pose), tag)
+
+        added: List[ob.State] = []
+        roots: Tuple[List[Any], List[Any]] = ([], [])
         for ofGoal in (False, True):
             rows, parents = self._query.frontier(ofGoal)
             indices = []
             for pose, parent in zip(rows.tolist(), parents):
-                if used == len(self._dataStates):
-                    self._dataStates.append(self._space.allocState())
-                vertex = ob.PlannerDataVertex(_put(self._dataStates[used], pose), 2 if ofGoal else 1)
-                used += 1
                 add = data.addVertex if parent >= 0 else data.addGoalVertex if ofGoal else data.addStartVertex
-                indices.append(add(vertex))
+                indices.append(add(vertex(pose, 1 + ofGoal)))
+                if parent < 0:
+                    roots[ofGoal].append((indices[-1], pose))
             for index, parent in zip(indices, parents):
                 if parent >= 0:
                     data.addEdge(*((index, indices[parent]) if ofGoal else (indices[parent], index)))
+        if self._query.has_solution:
+            path = self._query.states(True).tolist()
+            first, last = (min(found, key=lambda root, end=end: math.dist(root[1], end))[0]
+                           for found, end in zip(roots, (path[0], path[-1])))
+            between = [data.addVertex(vertex(pose, 0)) for pose in path[1:-1]]
+            for index, following in zip([first, *between], [*between, last]):
+                data.addEdge(index, following)
         data.decoupleFromPlanner()
+        self._dataStates += added
 
 
 def simpleSetup(scenario: Scenario, space: Optional[ob.SE2StateSpace] = None, **parameters: Any) -> og.SimpleSetup:

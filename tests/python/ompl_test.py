@@ -159,9 +159,15 @@ def test_planner_data():
     assert solve(setup) == Type.EXACT_SOLUTION
     setup.getPlanner().getPlannerData(data)
     assert data.numStartVertices() == 1 and data.numGoalVertices() == 1
-    assert data.numVertices() > 10 and data.numEdges() == data.numVertices() - 2
+    assert data.numVertices() > 10 and data.numEdges() == data.numVertices() - 1  # two trees and what joins them
     assert data.getStartVertex(0).getState().getX() == -10.0 and data.getGoalVertex(0).getState().getX() == 10.0
     assert data.getEdges(data.getStartIndex(0)) and data.getIncomingEdges(data.getGoalIndex(0))
+    seen, reached = set(), {data.getStartIndex(0)}
+    while reached - seen:
+        at = (reached - seen).pop()
+        seen.add(at)
+        reached |= set(data.getEdges(at))
+    assert data.getGoalIndex(0) in reached
     setup.getPlannerData(ob.PlannerData(setup.getSpaceInformation()))  # which must not end the program
 
 
