@@ -150,34 +150,34 @@ class Parameters(collections.abc.Mapping):
     """The planner's parameters, with the methods of OMPL's ParamSet; improved_astar.parameters() explains each."""
 
     def __init__(self, values: Dict[str, Any]) -> None:
-        self._values = _core._with_parameters(values)
+        self.current = _core._with_parameters(values)  # another dict after each change
 
     def setParam(self, name: str, value: Any) -> None:
         """Raises Error, naming the parameter, its value and what is right, and then changes nothing."""
         text = str(value).lower() if isinstance(value, bool) else str(value)
-        self._values = _core._with_parameter(self._values, name, text)
+        self.current = _core._with_parameter(self.current, name, text)
 
     def getParam(self, name: str) -> str:
         value = self[name]
         return str(int(value)) if isinstance(value, bool) else str(value)
 
     def hasParam(self, name: str) -> bool:
-        return name in self._values
+        return name in self.current
 
     def getParamNames(self) -> List[str]:
-        return list(self._values)
+        return list(self.current)
 
     def __getitem__(self, name: str) -> Any:
-        return self._values[name]
+        return self.current[name]
 
     def __setitem__(self, name: str, value: Any) -> None:
         self.setParam(name, value)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
+        return iter(self.current)
 
     def __len__(self) -> int:
-        return len(self._values)
+        return len(self.current)
 
 
 class _World:
@@ -291,7 +291,7 @@ class ImprovedAStar(ob.Planner):
         pdef, si = self.getProblemDefinition(), self._si
         goal = pdef.getGoal()
         asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), pdef.getOptimizationObjective(),
-                 dict(self._params))
+                 self._params.current)
         if self._query is not None and not all(a is b or a == b for a, b in zip(asked, self._asked)):
             self._clearQuery()
         self._reason = ''
