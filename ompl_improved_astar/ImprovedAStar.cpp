@@ -4,6 +4,7 @@
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/PathStates.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -55,10 +56,6 @@ namespace ompl::geometric
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
         constexpr double FARTHEST_DUBINS = 1e7;   // coordinates in turning radii
         constexpr double SAME_POSE = 1e-12;       // metres and radians
-        constexpr double AT_GOAL = 1e-3;  // turning radii: what ends nearer to a goal ends there, but for rounding
-        // Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on a
-        // plain SE2 space it keeps the chord within a hundred-thousandth of the radius of the arc.
-        constexpr double DENSE_SPACING = 0.01;
 
         constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
         constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
@@ -133,12 +130,6 @@ namespace ompl::geometric
             ob::ScopedState<> state(si->getStateSpace());
             region->sampleGoal(state.get());
             return parking::poseOf(state.get());
-        }
-
-        /** Metres and radians in one sum. */
-        double deviation(const Pose &a, const Pose &b)
-        {
-            return parking::positionDistance(a, b) + std::abs(parking::wrapAngle(a.yaw - b.yaw));
         }
 
         /** In the form that OMPL.app reads: "0,1" for a switch, "min:step:max", or names with commas. */
@@ -223,11 +214,15 @@ namespace ompl::geometric
         /** \brief How far apart the states of a path may be in this space. */
         parking::StateSpacing stateSpacing() const
         {
-            const double radius = turningRadius();
-            if (turnsOnTheSpot)
-                return {parking::search::SMOOTH_STATE_SPACING, parking::search::SMOOTH_STATE_SPACING, 1.0 / radius,
-                        &*space};
-            return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius, &*space};
+            parking::StateSpacing spacing = parking::stateSpacing(isPlain(), turningRadius(), turnsOnTheSpot);
+            if (space->kind() == parking::SpaceKind::ReedsShepp)
+                spacing.curveLength = [curves = &*space](const Pose &from, const Pose &to)
+                {
+                    parking::ReedsSheppCurve curve;
+                    curves->curve(from, to, curve);
+                    return curve.length;
+                };
+            return spacing;
         }
 
         /** \brief Ends the query; what depends on the space only is kept, and memory too. */
@@ -396,7 +391,7 @@ namespace ompl::geometric
             [this](std::vector<Pose> &poses)
             {
                 // Parts of paths are asked for, too, which end elsewhere.
-                if (isAtGoal(poses.back()))
+                if (parking::isAtGoal(poses.back(), query_->goals, query_->turningRadius()))
                     endAtGoal(poses);
             });
         query_->footprintEnvironment.reset();
@@ -775,29 +770,9 @@ namespace ompl::geometric
         return difference;
     }
 
-    bool ImprovedAStar::isAtGoal(const Pose &pose) const
-    {
-        return std::any_of(query_->goals.begin(), query_->goals.end(),
-                           [&](const Pose &goal) { return deviation(goal, pose) < AT_GOAL * query_->turningRadius(); });
-    }
-
     void ImprovedAStar::endAtGoal(std::vector<Pose> &poses) const
     {
-        // The exact goal; the path ends there up to rounding.
-        const Pose end = poses.back();
-        const Pose goal =
-            *std::min_element(query_->goals.begin(), query_->goals.end(),
-                              [&end](const Pose &a, const Pose &b) { return deviation(a, end) < deviation(b, end); });
-        if (poses.size() == 1)
-            poses.push_back(end);
-        // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but OMPL
-        // must not take it for a turn on the spot.)
-        for (std::size_t i = poses.size();
-             i-- > 1 && query_->turnsOnTheSpot && positionDistance(poses[i], goal) <= 1e-6;)
-            poses[i] = {goal.x, goal.y, poses[i].yaw};
-        poses.back() = goal;
-        // With the last digits of another end.
-        poses = parking::straightened(std::move(poses), *query_->space);
+        parking::endAtGoal(poses, query_->goals, query_->stateSpacing(), query_->turnsOnTheSpot);
     }
 
     ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)

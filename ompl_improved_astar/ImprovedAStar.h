@@ -169,7 +169,6 @@ namespace ompl::geometric
         double differenceFromGoal(const base::State *state) const;
         bool takeImprovement(const parking::Path &path, double plannedCost,
                              const base::PlannerTerminationCondition &ptc);
-        bool isAtGoal(const parking::Pose &pose) const;
         void endAtGoal(std::vector<parking::Pose> &poses) const;
         base::PlannerStatus report(std::vector<parking::Pose> poses, bool approximate);
 

@@ -15,83 +15,12 @@ namespace parking
     namespace
     {
         constexpr std::uint64_t QUESTIONS_BETWEEN_STOPS = 8;
-        // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
-        constexpr double RADIANS_PER_STATE = 0.8;
-        // Of the lines that straightened() mends.
-        constexpr double SHORT = 0.25;     // turning radii that they are shorter than
-        constexpr double STRAIGHT = 1e-9;  // metres and radians by which they may deviate
-        constexpr double FRACTIONS[] = {0.5, 0.37, 0.63, 0.29, 0.71, 0.43, 0.57, 0.23, 0.77, 0.17, 0.83, 0.11, 0.89};
-
-        bool isShortLine(const Pose &from, const Pose &to, double turningRadius)
-        {
-            if (positionDistance(from, to) >= SHORT * turningRadius)
-                return false;
-            const Pose seen = relativeTo(from, to);
-            return std::abs(seen.y) <= STRAIGHT && std::abs(seen.yaw) <= STRAIGHT;
-        }
-
-        bool swerves(const Pose &from, const Pose &to, const CurveSpace &curves)
-        {
-            ReedsSheppCurve curve;
-            curves.curve(from, to, curve);
-            return curve.length > positionDistance(from, to) + STRAIGHT;
-        }
     }  // namespace
 
     Box spaceBounds(const ob::StateSpace &space)
     {
         const ob::RealVectorBounds &bounds = space.as<ob::SE2StateSpace>()->getBounds();
         return {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}};
-    }
-
-    std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing)
-    {
-        std::vector<Pose> poses{path.start};
-        Pose pose = path.start;
-        for (const PathPiece &piece : path.pieces)
-        {
-            const double sharpest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
-            double states = std::ceil(piece.driven() * sharpest / RADIANS_PER_STATE);
-            const bool gentle =
-                sharpest > 0.0 && (sharpest < (1.0 - 1e-9) * spacing.sharpestCurvature || piece.sharpness != 0.0);
-            const double dense = gentle ? spacing.onGentleArcs : sharpest > 0.0 ? spacing.onArcs : 0.0;
-            if (dense > 0.0)
-                states = std::max(states, std::ceil(piece.driven() / dense));
-            states = std::max(states, 1.0);
-            states = std::max(states, std::ceil(std::abs(piece.turn) / PathPiece::MAX_TURN));
-            for (double i = 1.0; i <= states; i += 1.0)
-            {
-                Pose next = piece.turn != 0.0 ? Pose{pose.x, pose.y, pose.yaw + piece.turn * i / states}
-                                              : advance(pose, piece, piece.driven() * i / states);
-                next.yaw = wrapAngle(next.yaw);
-                poses.push_back(next);
-            }
-            pose = advance(pose, piece);
-        }
-        if (spacing.curves == nullptr)
-            return poses;
-        return straightened(std::move(poses), *spacing.curves);
-    }
-
-    std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves)
-    {
-        if (curves.kind() != SpaceKind::ReedsShepp)
-            return poses;
-        for (std::size_t i = 1; i < poses.size(); ++i)
-        {
-            const Pose from = poses[i - 1], to = poses[i];
-            if (!isShortLine(from, to, curves.turningRadius()) || !swerves(from, to, curves))
-                continue;
-            for (const double fraction : FRACTIONS)
-            {
-                const Pose between{from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y), from.yaw};
-                if (swerves(from, between, curves) || swerves(between, to, curves))
-                    continue;
-                poses.insert(poses.begin() + static_cast<std::ptrdiff_t>(i++), between);
-                break;
-            }
-        }
-        return poses;
     }
 
     StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step,

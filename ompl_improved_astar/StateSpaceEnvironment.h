@@ -2,9 +2,9 @@
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/StopFunction.h"
+#include "ompl_improved_astar/search/planning/PathStates.h"
 #include "parking_geometry/Box.h"
 #include "parking_geometry/curves/Path.h"
-#include "state_validity/ompl/CurveSpace.h"
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
@@ -16,27 +16,6 @@
 
 namespace parking
 {
-    /** \brief Largest distance between states of a path at which the space's own interpolation follows the path.
-
-        For straight lines and turns on the spot the ends suffice. Curve spaces also connect states by arcs at their
-        turning radius; they would replace a gentler arc or a clothoid by a sharper arc and a line. */
-    struct StateSpacing
-    {
-        double onArcs{0.0};                 ///< metres; 0 where the ends of short arcs suffice
-        double onGentleArcs{0.0};           ///< metres; 0 as above
-        double sharpestCurvature{0.0};      ///< 1/m; arcs that turn less are gentle
-        const CurveSpace *curves{nullptr};  ///< of the space, for straightened(); null: nothing is straightened
-    };
-
-    /** \brief The poses of \e path between which the space's own interpolation follows the path. */
-    std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
-
-    /** \brief Adds poses where a Reeds-Shepp space would swerve instead of driving straight.
-
-        For some straight lines much shorter than the turning radius, rounding makes OMPL miss the shortest curve and
-        return four arcs instead (OMPL 1.5: lines up to 8 % of the radius). Slightly different poses avoid this. */
-    std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves);
-
     /** \brief Motion environment of the search on top of OMPL's validity checker and motion validator.
 
         It checks states along each motion. The motion validator then checks each path, motion by motion, in the

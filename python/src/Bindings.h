@@ -10,11 +10,12 @@
 // The parts of the module, in the order in which they must be added.
 namespace parking::python
 {
-    void addVehicles(pybind11::module_ &module);   ///< adds Vehicle, Slot, vehicles()
-    void addScenarios(pybind11::module_ &module);  ///< adds Scenario
-    void addPlans(pybind11::module_ &module);      ///< adds Drive, Result, plan()
-    void addParking(pybind11::module_ &module);    ///< adds ParkingPlan, ParkingPlanner
-    void addReferee(pybind11::module_ &module);    ///< adds Verdict, check()
+    void addVehicles(pybind11::module_ &module);      ///< adds Vehicle, Slot, vehicles()
+    void addScenarios(pybind11::module_ &module);     ///< adds Scenario
+    void addPlans(pybind11::module_ &module);         ///< adds Drive, Result, plan()
+    void addParking(pybind11::module_ &module);       ///< adds ParkingPlan, ParkingPlanner
+    void addReferee(pybind11::module_ &module);       ///< adds Verdict, check()
+    void addOmplPlanning(pybind11::module_ &module);  ///< adds what improved_astar.ompl is made of
 
     /** \brief Adds the properties of Drive, the common base of both kinds of results. */
     void addPathProperties(pybind11::class_<PathHandle, std::shared_ptr<PathHandle>> &type);

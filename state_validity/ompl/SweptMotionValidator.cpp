@@ -4,9 +4,9 @@
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplCompatibility.h"
 #include "state_validity/ompl/OmplPose.h"
+#include "state_validity/sweeps/ClearanceProof.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -22,9 +22,6 @@ namespace parking
     namespace
     {
         constexpr double MAX_TOLERANCE = 0.1;
-        // Smallest clearances that prove a motion free, as shares of the tolerance: along the motion and at its ends.
-        constexpr double MIN_CLEARANCE = 0.1, MIN_END_CLEARANCE = 1e-4;
-        constexpr int MAX_TIGHT_CHECKS = 4096;  // with a clearance below the tolerance, which prove only short parts
 
         std::shared_ptr<const FootprintChecker> footprintOf(const ob::SpaceInformationPtr &si)
         {
@@ -105,7 +102,7 @@ namespace parking
                                            std::pair<ob::State *, double> &lastValid) const
     {
         const bool endValid = si_->isValid(s2);
-        const Proof proof = prove(s1, s2, true);
+        const MotionProof proof = prove(s1, s2, true);
         if (endValid && proof.whole)
         {
             ompl_compatibility::countUp(valid_);
@@ -138,13 +135,13 @@ namespace parking
         return false;
     }
 
-    SweptMotionValidator::Proof SweptMotionValidator::prove(const ob::State *s1, const ob::State *s2, bool exact) const
+    MotionProof SweptMotionValidator::prove(const ob::State *s1, const ob::State *s2, bool exact) const
     {
         CheckCounts counts;
-        Proof proof;
+        MotionProof proof;
         const Pose from = poseOf(s1);
         if (space_.kind() == SpaceKind::SE2)
-            proof = proveLine(from, poseOf(s2), exact, counts);
+            proof = ClearanceProof(*footprint_, tolerance_).proveLine(from, poseOf(s2), exact, counts);
         else
         {
             ReedsSheppCurve curve;
@@ -155,8 +152,8 @@ namespace parking
         return proof;
     }
 
-    SweptMotionValidator::Proof SweptMotionValidator::proveCurve(const Pose &from, const ReedsSheppCurve &curve,
-                                                                 CheckCounts &counts) const
+    MotionProof SweptMotionValidator::proveCurve(const Pose &from, const ReedsSheppCurve &curve,
+                                                 CheckCounts &counts) const
     {
         if (!std::isfinite(curve.length))
             return {false, 0.0, from};
@@ -199,77 +196,9 @@ namespace parking
         // In most cases the body collides immediately beyond.
         if (!footprint_->isFree(at(free + std::min(rest, 2.0 * tolerance_)), counts))
             return false;
-        return proveByClearances([&](double t) { return at(free + t * rest); },
-                                 rest * footprint_->speedFactor(arc.curvature), false, counts)
+        return ClearanceProof(*footprint_, tolerance_)
+            .prove([&](double t) { return at(free + t * rest); }, rest * footprint_->speedFactor(arc.curvature), false,
+                   counts)
             .whole;
-    }
-
-    double SweptMotionValidator::toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const
-    {
-        double tolerance = MIN_CLEARANCE * tolerance_;
-        for (const Pose &pose : {from, to})
-            if (!footprint_->keeps(pose, 2.0 * tolerance, counts))
-                tolerance = std::min(tolerance, 0.5 * footprint_->exactClearance(pose));
-        return std::max(tolerance, MIN_END_CLEARANCE * tolerance_);
-    }
-
-    SweptMotionValidator::Proof SweptMotionValidator::proveLine(const Pose &from, const Pose &to, bool exact,
-                                                                CheckCounts &counts) const
-    {
-        if (!isFinite(from) || !isFinite(to))
-            return {false, 0.0, from};
-        const double dx = to.x - from.x, dy = to.y - from.y, turn = wrapAngle(to.yaw - from.yaw);
-        const auto at = [&](double t)
-        {
-            return Pose{from.x + t * dx, from.y + t * dy, from.yaw + t * turn};
-        };
-        return proveByClearances(at, std::hypot(dx, dy) + std::abs(turn) * footprint_->farthestPoint(), exact, counts);
-    }
-
-    template <class At>
-    SweptMotionValidator::Proof SweptMotionValidator::proveByClearances(const At &at, double moved, bool exact,
-                                                                        CheckCounts &counts) const
-    {
-        const double length = moved * (1.0 + 1e-9) + 1e-12;
-        // Parts still to be proven free, the earliest on top. Everything before its beginning is proven.
-        std::array<std::pair<double, double>, 128> open;
-        std::size_t count = 0;
-        open[count++] = {0.0, 1.0};
-        double proven = 0.0, tolerance = tolerance_;
-        int tight = 0;
-        while (count > 0)
-        {
-            const auto [begin, end] = open[--count];
-            const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * length;
-            const Pose pose = at(middle);
-            double clearance = footprint_->clearance(pose, half, counts);
-            if (clearance < half && clearance < tolerance_)
-                clearance = footprint_->exactClearance(pose) * (1.0 - 1e-9);
-            if (clearance >= half)
-            {
-                proven = end;
-                continue;
-            }
-            proven = begin;
-            if (clearance > 0.0 && clearance < tolerance && tolerance == tolerance_)
-                tolerance = toleranceBetween(at(0.0), at(1.0), counts);
-            if (clearance < tolerance_ && ++tight > MAX_TIGHT_CHECKS)
-                break;
-            if (clearance < tolerance)
-            {
-                // This pose is not proven free, so only the part before it still matters.
-                if (!exact || half < tolerance)
-                    break;
-                count = 0;
-                open[count++] = {begin, middle};
-                continue;
-            }
-            const double covered = clearance / length;
-            if (count + 2 > open.size())
-                break;
-            open[count++] = {middle + covered, end};
-            open[count++] = {begin, middle - covered};
-        }
-        return proven >= 1.0 ? Proof{true, 1.0, at(1.0)} : Proof{false, proven, at(proven)};
     }
 }  // namespace parking

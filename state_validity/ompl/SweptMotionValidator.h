@@ -3,6 +3,7 @@
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/TierCounters.h"
+#include "state_validity/sweeps/ClearanceProof.h"
 
 #include <memory>
 
@@ -85,28 +86,13 @@ namespace parking
         }
 
     private:
-        /** The part of a motion that is proven free: a fraction and the pose there. */
-        struct Proof
-        {
-            bool whole{false};
-            double fraction{0.0};
-            Pose pose;
-        };
-
-        /** \param exact whether the fraction of a motion that is not free is required */
-        Proof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
-        Proof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
-        /** Whether the arc is free and leads away from an obstacle that the body almost touches. */
+        /** \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
+        MotionProof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
+        MotionProof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
+        /** Does the arc leave what the body all but touches, and is it free? */
         bool isLeaving(const Pose &from, const Arc &arc, CheckCounts &counts) const;
         /** Whether clearances prove the arc free beyond the first \e free metres, which are known to be free. */
         bool isPassing(const Pose &from, const Arc &arc, double free, CheckCounts &counts) const;
-        /** \param at returns the pose at a fraction of the motion
-            \param moved metres that no point of the body exceeds on the motion */
-        template <class At>
-        Proof proveByClearances(const At &at, double moved, bool exact, CheckCounts &counts) const;
-        /** Smallest clearance in metres that counts as a proof between two poses, which may be near obstacles. */
-        double toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const;
-        Proof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
 
         CurveSpace space_;
         std::shared_ptr<const FootprintChecker> footprint_;

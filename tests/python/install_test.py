@@ -18,7 +18,8 @@ def main(cmake, build, prefix, folder):
     subprocess.run([cmake, '--install', build, '--prefix', prefix, '--component', 'python'], check=True,
                    stdout=subprocess.DEVNULL)
     place = os.path.join(prefix, folder)
-    wanted = {'__init__.py', '__init__.pyi', '_core.pyi', 'animation.py', 'plotting.py', 'py.typed', 'results.py'}
+    wanted = {'__init__.py', '__init__.pyi', '_core.pyi', 'animation.py', 'ompl.py', 'plotting.py', 'py.typed',
+              'results.py'}
     found = set(os.listdir(os.path.join(place, 'improved_astar')))
     modules = {name for name in found if name.startswith('_core.') and name.endswith('.so')}
     if found != wanted | modules or len(modules) != 1:

@@ -1,0 +1,505 @@
+"""Improved A* for OMPL's own Python package: a planner, and a validity checker for a car among obstacles.
+
+    from improved_astar import Scenario
+    from improved_astar.ompl import simpleSetup
+
+    setup = simpleSetup(Scenario.read('narrow_parallel.yaml'))
+    if setup.solve(1.0):
+        print(setup.getSolutionPath().printAsMatrix())
+
+Names are OMPL's. States are poses (x, y, yaw) of the middle of the rear axle.
+"""
+import collections.abc
+import functools
+import math
+import weakref
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, Union
+
+import numpy
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._core import Error, Scenario, Vehicle
+
+try:
+    from ompl import base as ob, geometric as og
+    if not hasattr(ob, 'SE2StateType'):
+        raise ImportError('this is another OMPL')
+except ImportError as error:
+    raise ImportError("improved_astar.ompl needs OMPL 2.0.1 or later: pip install 'ompl>=2.0.1'") from error
+
+__all__ = ['FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator', 'simpleSetup']
+
+MAX_GOALS = 16        # of a region that offers ever more of them
+GOAL_ATTEMPTS = 1000  # to find a first valid one, or one that can be reached
+ENDLESS = 2 ** 32 - 1
+FARTHEST_DUBINS = 1e7  # turning radii from the origin: beyond, OMPL's curves may be others for rounding
+
+Status = ob.PlannerStatus
+
+
+def _spaceOf(si: ob.SpaceInformation) -> Tuple[str, float]:
+    """Which of OMPL's planar spaces it is, and the turning radius of its curves."""
+    space = si.getStateSpace()
+    if isinstance(space, ob.ReedsSheppStateSpace):
+        kind, unit = 'reeds_shepp', ob.ReedsSheppStateSpace(1.0)
+    elif isinstance(space, ob.DubinsStateSpace):
+        kind, unit = 'dubins', ob.DubinsStateSpace(1.0, space.hasSymmetricInterpolate())
+    elif isinstance(space, ob.SE2StateSpace):
+        return 'se2', 0.0
+    else:
+        raise Error(f'space must be an SE2, a Reeds-Shepp or a Dubins state space, not {type(space).__name__}')
+    # OMPL has no getter for the radius, by which it multiplies the length of the curve for radius 1.
+    first, second = space.allocState(), space.allocState()
+    _put(first, (0.0, 0.0, 0.0))
+    _put(second, (0.0, 0.0, 0.5 * math.pi))
+    return kind, space.distance(first, second) / unit.distance(first, second)
+
+
+def _put(state: ob.State, pose: Tuple[float, float, float]) -> ob.State:
+    state.setX(pose[0])
+    state.setY(pose[1])
+    state.setYaw(pose[2])
+    return state
+
+
+def _poseOf(state: ob.State) -> Tuple[float, float, float]:
+    try:
+        return state.getX(), state.getY(), state.getYaw()
+    except AttributeError:
+        raise Error(f'state must be one of an SE2 space, not {type(state).__name__}') from None
+
+
+def _never() -> bool:
+    return False
+
+
+def _isSampling(goal: ob.Goal) -> bool:
+    """May goals that are sampled elsewhere, meanwhile, still come?"""
+    return isinstance(goal, ob.GoalLazySamples) and goal.isSampling()
+
+
+def _scenarioOf(si: ob.SpaceInformation, world: Any, vehicle: Any, resolution: Any, origin: Any) -> Scenario:
+    if isinstance(world, Scenario):
+        return world if vehicle is None else world.replace(vehicle=vehicle)
+    if vehicle is None:
+        raise Error('vehicle must be given with polygons or a grid: a Vehicle, or the name or file of one')
+    # Start and goal serve to spread a world of polygons over the whole space.
+    bounds = si.getStateSpace().getBounds()
+    low, high = (*bounds.low, 0.0), (*bounds.high, 0.0)
+    if isinstance(world, (list, tuple)) and numpy.ndim(world[0] if world else [[]]) == 2:
+        return Scenario.from_polygons(world, low, high, vehicle=vehicle)
+    if origin is None and not isinstance(world, (str, bytes)) and not hasattr(world, '__fspath__'):
+        origin = (0.0, 0.0, 0.0)
+    middle = tuple(0.5 * (a + b) for a, b in zip(low, high))
+    return Scenario.from_grid(world, middle, middle, resolution=resolution, origin=origin, vehicle=vehicle)
+
+
+class FootprintChecker(ob.StateValidityChecker):
+    """Is the car's rectangle free of obstacles? For any planner of OMPL's.
+
+    world: a Scenario; or a list of polygons, each n rows x, y, with a vehicle; or a map, an array or a file as for
+    Scenario.from_grid, with a vehicle.
+    """
+
+    def __init__(self, si: ob.SpaceInformation, world: Any, vehicle: Union[None, str, Vehicle] = None, *,
+                 resolution: Optional[float] = None, origin: Optional[ArrayLike] = None) -> None:
+        super().__init__(si)
+        _spaceOf(si)
+        self._space = si.getStateSpace()
+        self.scenario = _scenarioOf(si, world, vehicle, resolution, origin)
+        self.footprint = _core._Footprint(self.scenario)
+
+    def isValid(self, state: ob.State) -> bool:
+        x, y, yaw = _poseOf(state)
+        return self._space.satisfiesBounds(state) and self.footprint.is_free(x, y, yaw)
+
+    def clearance(self, state: ob.State) -> float:
+        x, y, yaw = _poseOf(state)
+        return self.footprint.clearance(x, y, yaw) if self._space.satisfiesBounds(state) else 0.0
+
+
+class SweptMotionValidator(ob.MotionValidator):
+    """Proves motions free along their whole length, not at samples of it, for any planner of OMPL's.
+
+    Sound, not complete: a motion that passes an obstacle nearer than a millimetre may be rejected.
+    """
+
+    def __init__(self, si: ob.SpaceInformation, checker: FootprintChecker) -> None:
+        super().__init__(si)
+        self.checker = checker
+        self._space = si.getStateSpace()
+        self._kind, radius = _spaceOf(si)
+        self._curvature = 1.0 / radius if radius else 0.0
+        self._between = self._space.allocState()
+
+    def checkMotion(self, first: ob.State, last: ob.State) -> bool:
+        if not self.checker.isValid(last):
+            return False
+        if self._kind == 'se2':
+            return self.checker.footprint.is_line_free(*_poseOf(first), *_poseOf(last))
+
+        def at(fraction: float) -> Optional[Tuple[float, float, float]]:
+            self._space.interpolate(first, last, fraction, self._between)
+            return _poseOf(self._between) if self._space.satisfiesBounds(self._between) else None
+
+        return self.checker.footprint.is_curve_free(at, self._space.distance(first, last), self._curvature)
+
+
+class Parameters(collections.abc.Mapping):
+    """The planner's parameters, with the methods of OMPL's ParamSet; improved_astar.parameters() explains each."""
+
+    def __init__(self, values: Dict[str, Any]) -> None:
+        self.current = _core._with_parameters(values)  # another dict after each change
+
+    def setParam(self, name: str, value: Any) -> None:
+        """Raises Error, naming the parameter, its value and what is right, and then changes nothing."""
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        self.current = _core._with_parameter(self.current, name, text)
+
+    def getParam(self, name: str) -> str:
+        value = self[name]
+        return str(int(value)) if isinstance(value, bool) else str(value)
+
+    def hasParam(self, name: str) -> bool:
+        return name in self.current
+
+    def getParamNames(self) -> List[str]:
+        return list(self.current)
+
+    def __getitem__(self, name: str) -> Any:
+        return self.current[name]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self.setParam(name, value)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.current)
+
+    def __len__(self) -> int:
+        return len(self.current)
+
+
+class _World:
+    """What the core asks of OMPL's objects. Poses come as rows x, y, yaw."""
+
+    def __init__(self, si: ob.SpaceInformation) -> None:
+        self._si, self._space = si, si.getStateSpace()
+        # Once for all queries: OMPL does not free all of a state that Python lets go.
+        self._first, self._last = self._space.allocState(), self._space.allocState()
+        self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
+        self.isTimeUp: Callable[[], bool] = _never
+
+    def freeCounts(self, rows: numpy.ndarray, parts: List[int]) -> Optional[List[int]]:
+        """Of each part of the rows, the number of those before the first that is not valid; None: the time is up."""
+        if self.areValid is not None:
+            bounds = self._space.getBounds()
+            valid = numpy.asarray(self.areValid(rows), dtype=bool)
+            if valid.shape != (len(rows),):
+                raise Error(f'areValid() must return one bool for each of {len(rows)} poses, not an array of shape '
+                            f'{valid.shape}')
+            valid &= ((rows[:, :2] >= bounds.low) & (rows[:, :2] <= bounds.high)).all(axis=1)
+            pieces = numpy.split(valid, numpy.cumsum(parts)[:-1])
+            return [len(piece) if piece.all() else int(piece.argmin()) for piece in pieces]
+        poses, counts, begin = rows.tolist(), [], 0
+        for part in parts:
+            count = 0
+            while count < part:
+                if self.isTimeUp():
+                    return None
+                state = _put(self._first, poses[begin + count])
+                if not (self._si.satisfiesBounds(state) and self._si.isValid(state)):
+                    break
+                count += 1
+            counts.append(count)
+            begin += part
+        return counts
+
+    def freeMotions(self, rows: numpy.ndarray, always: bool) -> Optional[int]:
+        """How many of the first motions between the rows the motion validator accepts; None: the time is up."""
+        poses = rows.tolist()
+        for count in range(len(poses) - 1):
+            if not always and self.isTimeUp():
+                return None
+            if not self._si.checkMotion(_put(self._first, poses[count]), _put(self._last, poses[count + 1])):
+                return count
+        return len(poses) - 1
+
+    def distance(self, *poses: float) -> float:
+        return self._space.distance(_put(self._first, poses[:3]), _put(self._last, poses[3:]))
+
+
+class ImprovedAStar(ob.Planner):
+    """Improved A* as a planner of OMPL's, for SE2, Reeds-Shepp and Dubins spaces.
+
+    Takes any validity checker. With a FootprintChecker the search stays in C++; one with a method areValid(poses),
+    n rows x, y, yaw to n bool, is asked in batches. Parameters: by name here, or later through params().
+    """
+
+    def __init__(self, si: ob.SpaceInformation, name: str = 'ImprovedAStar', **parameters: Any) -> None:
+        super().__init__(si, name)
+        self._kind, self._radius = _spaceOf(si)
+        self._si, self._space = si, si.getStateSpace()
+        self._params = Parameters(parameters)
+        self._world, self._state = _World(si), self._space.allocState()
+        self._dataStates: List[ob.State] = []
+        self._inputs = ob.PlannerInputStates()
+        self._clearQuery()
+        # OMPL would copy a PlannerData on the way from C++ to a method of this class, and end the program because that
+        # cannot be copied. Asked once, it knows that the class has none; Python finds the object's own.
+        super().getPlannerData(ob.PlannerData(si))
+        self.getPlannerData = functools.partial(type(self)._getPlannerData, weakref.proxy(self))
+
+    def params(self) -> Parameters:
+        return self._params
+
+    def reason(self) -> str:
+        """Why there is no solution, in one line; empty where it is only for want of time, and with one."""
+        return self._reason
+
+    def clear(self) -> None:
+        super().clear()
+        self._clearQuery()
+
+    def clearQuery(self) -> None:
+        self._clearQuery()
+
+    def _clearQuery(self) -> None:
+        self._query: Any = None
+        self._asked: Tuple[Any, ...] = ()
+        self._reason = ''
+        self._starts, self._goals = 0, []
+        self._otherGoals = 0
+        self._bestCost: Any = None
+        self._inputs.clear()
+
+    def solve(self, ptc: Any, checkInterval: float = 0.0) -> ob.PlannerStatus:
+        if isinstance(ptc, (int, float)):
+            ptc = ob.timedPlannerTerminationCondition(float(ptc))
+        elif not isinstance(ptc, ob.PlannerTerminationCondition):
+            ptc = ob.PlannerTerminationCondition(ptc, *([checkInterval] if checkInterval > 0.0 else []))
+        try:
+            return Status(self._solve(ptc))
+        except BaseException:
+            self._clearQuery()  # the planner can be used again
+            raise
+        finally:
+            self._world.isTimeUp = _never  # nothing is kept of a condition, which may know this planner
+
+    def _solve(self, ptc: ob.PlannerTerminationCondition) -> ob.PlannerStatus.PlannerStatusType:
+        self.checkValidity()
+        pdef, si = self.getProblemDefinition(), self._si
+        goal = pdef.getGoal()
+        asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), pdef.getOptimizationObjective(),
+                 self._params.current)
+        if self._query is not None and not all(a is b or a == b for a, b in zip(asked, self._asked)):
+            self._clearQuery()
+        self._reason = ''
+        if ptc() and not (self._query is not None and self._query.has_solution):
+            return Status.TIMEOUT
+        if not isinstance(goal, ob.GoalSampleableRegion):
+            return Status.UNRECOGNIZED_GOAL_TYPE
+        if self._query is None:
+            self._begin(asked)
+        self._world.isTimeUp = ptc
+        self._inputs.use(pdef)
+        while (state := self._inputs.nextStart()) is not None:
+            self._query.add_start(*_poseOf(state))
+            self._starts += 1
+        if self._starts == 0:
+            return Status.INVALID_START
+        failure = self._readGoals(goal, ptc)
+        if failure == Status.TIMEOUT:
+            return failure
+        fallback = None
+        if failure == Status.INVALID_GOAL:
+            self._reason = 'no goal is valid'
+            fallback = self._anyGoal(goal)
+            if fallback is None or not self._params['approximate']:
+                return failure
+        return self._search(goal, ptc, fallback)
+
+    def _begin(self, asked: Tuple[Any, ...]) -> None:
+        _, _, checker, validator, objective, parameters = self._asked = asked
+        bounds = self._space.getBounds()
+        box = (*bounds.low, *bounds.high)
+        footprint = checker.footprint if type(checker) is FootprintChecker else None
+        isOwn = footprint is not None and type(validator) is SweptMotionValidator and \
+            validator.checker.footprint is footprint
+        mayDeviate = self._kind == 'dubins' and max(map(abs, box)) > FARTHEST_DUBINS * self._radius
+        isSwept = isOwn and self._kind != 'se2' and parameters['steering_angles'] == 3 and not mayDeviate
+        self._world.areValid = getattr(checker, 'areValid', None)
+        self._query = _core._OmplQuery(self._world, footprint, self._kind, self._radius, box,
+                                       self._space.getLongestValidSegmentLength(), isSwept,
+                                       isOwn and self._kind == 'se2', parameters)
+
+    def _addGoal(self, state: Optional[ob.State]) -> bool:
+        if state is None or not self._query.add_goal(*_poseOf(state)):
+            return False
+        self._goals.append(_poseOf(state))
+        return True
+
+    def _readGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> Any:
+        """None, INVALID_GOAL or TIMEOUT."""
+        isEndless = goal.maxSampleCount() >= ENDLESS
+        attempt = 0
+        while (not isEndless or attempt < GOAL_ATTEMPTS) and self._inputs.haveMoreGoalStates() and \
+                (attempt == 0 or not ptc()):
+            if isEndless and len(self._goals) >= MAX_GOALS:
+                break
+            state = self._inputs.nextGoal()
+            if state is None and isEndless and self._goals:
+                break
+            self._addGoal(state)
+            attempt += 1
+        # Lazily sampled goals may be on their way. For those of a list, all taken, OMPL would wait until the end.
+        mayHaveMore = _isSampling(goal) or (not isEndless and goal.maxSampleCount() == 0)
+        if not self._goals and goal.couldSample() and mayHaveMore:
+            self._addGoal(self._inputs.nextGoal(ptc))
+        if self._goals:
+            return None
+        hasSeenAll = (isEndless and attempt == GOAL_ATTEMPTS) or \
+            not (self._inputs.haveMoreGoalStates() or mayHaveMore)
+        return Status.INVALID_GOAL if hasSeenAll or not ptc() else Status.TIMEOUT
+
+    def _mayHaveOtherGoals(self, goal: ob.GoalSampleableRegion) -> bool:
+        return self._inputs.haveMoreGoalStates() or _isSampling(goal)
+
+    def _readAnotherGoal(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
+        while not ptc() and self._mayHaveOtherGoals(goal) and \
+                (goal.maxSampleCount() < ENDLESS or self._otherGoals < GOAL_ATTEMPTS):
+            self._otherGoals += 1
+            if self._addGoal(self._inputs.nextGoal(ptc) if _isSampling(goal) else self._inputs.nextGoal()):
+                return True
+        return False
+
+    def _anyGoal(self, goal: ob.GoalSampleableRegion) -> Optional[Tuple[float, float, float]]:
+        if goal.maxSampleCount() == 0:
+            return None
+        if isinstance(goal, ob.GoalStates):
+            return _poseOf(goal.getState(0))
+        goal.sampleGoal(self._state)
+        return _poseOf(self._state)
+
+    def _search(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition,
+                fallback: Optional[Tuple[float, float, float]]) -> ob.PlannerStatus.PlannerStatusType:
+        query, pdef = self._query, self.getProblemDefinition()
+        objective = pdef.getOptimizationObjective()
+
+        def judge(rows: numpy.ndarray) -> int:
+            cost = self._path(rows).cost(objective)
+            if self._bestCost is not None and not objective.isCostBetterThan(cost, self._bestCost):
+                return 0
+            self._bestCost = cost
+            return 2 if objective.isSatisfied(cost) else 1
+
+        isExhausted = False
+        if self._goals:
+            judgeOrNone = judge if objective is not None else None
+            outcome = query.solve(ptc, judgeOrNone)
+            while outcome == 'exhausted' and self._readAnotherGoal(goal, ptc):
+                outcome = query.solve(ptc, judgeOrNone)
+            isExhausted = outcome == 'exhausted'
+        isInfeasible = isExhausted and not self._mayHaveOtherGoals(goal)
+        if isExhausted and not isInfeasible:
+            self._reason = f'none of the {len(self._goals)} goals that were sampled can be reached; others may be'
+        elif self._goals:
+            self._reason = query.reason(isInfeasible)
+        if query.has_solution:
+            self._reason = ''
+            pdef.addSolutionPath(self._path(query.states(True)), False, 0.0, self.getName())
+            return Status.EXACT_SOLUTION
+        target = self._goals[0] if self._goals else fallback
+        if self._params['approximate'] and query.approximate(*target, ptc):
+            path = self._path(query.states(False))
+            difference = self._differenceFromGoal(goal, path.getState(path.getStateCount() - 1), target)
+            pdef.addSolutionPath(path, True, difference, self.getName())
+            return Status.APPROXIMATE_SOLUTION
+        return Status.INFEASIBLE if isInfeasible else Status.TIMEOUT
+
+    def _path(self, rows: numpy.ndarray) -> og.PathGeometric:
+        path, state = og.PathGeometric(self._si), self._state
+        for pose in rows.tolist():
+            path.append(_put(state, pose))
+        return path
+
+    def _differenceFromGoal(self, goal: ob.GoalSampleableRegion, state: ob.State,
+                            target: Tuple[float, float, float]) -> float:
+        if not isinstance(goal, (ob.GoalState, ob.GoalStates)):
+            return goal.isSatisfiedWithDistance(state)[1]
+        # Asked itself, the goal would measure the distance to states out of bounds, which ends the program.
+        differences = []
+        for pose in self._goals or [target]:
+            _put(self._state, pose)
+            self._si.enforceBounds(self._state)
+            differences.append(self._si.distance(state, self._state))
+        return min(differences)
+
+    def pieces(self) -> numpy.ndarray:
+        """The last exact solution: m rows curvature, length, sharpness, turn. Without one, no rows."""
+        return self._query.pieces if self._query is not None else numpy.empty((0, 4))
+
+    def _getPlannerData(self, data: ob.PlannerData) -> None:
+        """Both frontiers and the last exact solution, with edges in the direction of driving. The data has its own
+        copies of the states."""
+        if self._query is None:
+            return
+        spare = iter(self._dataStates)
+
+        def vertex(pose: List[float], tag: int) -> ob.PlannerDataVertex:
+            state = next(spare, None)
+            if state is None:
+                state = self._space.allocState()
+                added.append(state)
+            return ob.PlannerDataVertex(_put(state, pose), tag)
+
+        added: List[ob.State] = []
+        roots: Tuple[List[Any], List[Any]] = ([], [])
+        for ofGoal in (False, True):
+            rows, parents = self._query.frontier(ofGoal)
+            indices = []
+            for pose, parent in zip(rows.tolist(), parents):
+                add = data.addVertex if parent >= 0 else data.addGoalVertex if ofGoal else data.addStartVertex
+                indices.append(add(vertex(pose, 1 + ofGoal)))
+                if parent < 0:
+                    roots[ofGoal].append((indices[-1], pose))
+            for index, parent in zip(indices, parents):
+                if parent >= 0:
+                    data.addEdge(*((index, indices[parent]) if ofGoal else (indices[parent], index)))
+        if self._query.has_solution:
+            path = self._query.states(True).tolist()
+            first, last = (min(found, key=lambda root, end=end: math.dist(root[1], end))[0]
+                           for found, end in zip(roots, (path[0], path[-1])))
+            between = [data.addVertex(vertex(pose, 0)) for pose in path[1:-1]]
+            for index, following in zip([first, *between], [*between, last]):
+                data.addEdge(index, following)
+        data.decoupleFromPlanner()
+        self._dataStates += added
+
+
+def simpleSetup(scenario: Scenario, space: Optional[ob.SE2StateSpace] = None, **parameters: Any) -> og.SimpleSetup:
+    """A SimpleSetup for a scenario: bounds, checker, motion validator, start, goals and planner.
+
+    space: None for a Reeds-Shepp space with the vehicle's turning radius.
+    """
+    if space is None:
+        space = ob.ReedsSheppStateSpace(scenario.vehicle.turning_radius)
+    bounds = ob.RealVectorBounds(2)
+    for axis in (0, 1):
+        bounds.setLow(axis, scenario.bounds[axis])
+        bounds.setHigh(axis, scenario.bounds[axis + 2])
+    space.setBounds(bounds)
+    setup = og.SimpleSetup(space)
+    si = setup.getSpaceInformation()
+    checker = FootprintChecker(si, scenario)
+    setup.setStateValidityChecker(checker)
+    si.setMotionValidator(SweptMotionValidator(si, checker))
+    state, goals = space.allocState(), ob.GoalStates(si)
+    setup.setStartState(_put(state, scenario.start))
+    for goal in scenario.goals:
+        goals.addState(_put(state, goal))
+    setup.setGoal(goals)
+    if type(space) is ob.SE2StateSpace:
+        parameters.setdefault('turning_radius', scenario.vehicle.turning_radius)
+    setup.setPlanner(ImprovedAStar(si, **parameters))
+    return setup

@@ -1,0 +1,335 @@
+"""Improved A* in OMPL's own Python package, with the wheel that `pip install ompl` brings."""
+import gc
+import math
+import os
+import subprocess
+import sys
+import time
+
+import numpy
+import pytest
+
+import improved_astar as ia
+
+pytest.importorskip('ompl', reason="OMPL's Python package cannot be imported: pip install 'ompl>=2.0.1'")
+from ompl import base as ob, geometric as og, tools as ot, util as ou  # noqa: E402
+
+from improved_astar import ompl as iao  # noqa: E402
+
+ou.setLogLevel(ou.LOG_NONE)
+SCENARIOS = os.path.join(os.environ['PARKING_SOURCE_DIR'], 'benchmarks', 'scenarios')
+BUNDLED = sorted(name for name in os.listdir(SCENARIOS)
+                 if name.endswith('.yaml') and not name.endswith('_map.yaml') and name != 'unreachable.yaml')
+WALL = [[[-0.5, -15], [0.5, -15], [0.5, 2], [-0.5, 2]], [[-0.5, 6], [0.5, 6], [0.5, 15], [-0.5, 15]]]
+CLOSED = [[[4, -11], [16, -11], [16, -10.5], [4, -10.5]], [[4, 0.5], [16, 0.5], [16, 1], [4, 1]],
+          [[4, -11], [4.5, -11], [4.5, 1], [4, 1]], [[15.5, -11], [16, -11], [16, 1], [15.5, 1]]]  # round the goal
+Type = ob.PlannerStatus.PlannerStatusType
+
+
+def scenario(name='parallel.yaml'):
+    return ia.Scenario.read(os.path.join(SCENARIOS, name))
+
+
+def wall(polygons=WALL, **more):
+    return ia.Scenario.from_polygons(polygons, more.pop('start', (-10, -5, 0)), more.pop('goal', (10, -5, 0)), **more)
+
+
+def solve(setup, seconds=30.0):
+    return setup.solve(seconds).getStatus()
+
+
+def rows(path):
+    return numpy.array([[s.getX(), s.getY(), s.getYaw()] for s in path.getStates()])
+
+
+def state(setup, pose):
+    result = setup.getStateSpace().allocState()
+    result.setX(pose[0])
+    result.setY(pose[1])
+    result.setYaw(pose[2])
+    return result
+
+
+@pytest.mark.parametrize('name', BUNDLED)
+def test_the_path_is_that_of_the_planner_in_cpp(name):
+    setup = iao.simpleSetup(scenario(name))
+    assert solve(setup) == Type.EXACT_SOLUTION
+    path, pieces = setup.getSolutionPath(), setup.getPlanner().pieces()
+    program = os.environ.get('OMPL_PATH', '')
+    if os.path.exists(program):
+        lines = subprocess.run([program, os.path.join(SCENARIOS, name)], capture_output=True, text=True, check=True,
+                               timeout=120).stdout.splitlines()
+        wanted = {kind: numpy.array([[float.fromhex(word) for word in line.split()[1:]] for line in lines
+                                     if line.startswith(kind)]) for kind in ('state', 'piece')}
+        assert numpy.array_equal(pieces, wanted['piece'])
+        assert numpy.array_equal(rows(path)[1:-1], wanted['state'][1:-1])
+        assert rows(path) == pytest.approx(wanted['state'], abs=1e-12)  # the ends are those that were given
+    else:
+        assert pieces == pytest.approx(ia.plan(scenario(name), time_limit=30).pieces, abs=1e-9)
+    assert tuple(rows(path)[0]) == scenario(name).start and tuple(rows(path)[-1]) in scenario(name).goals
+    assert setup.getProblemDefinition().getSolutionDifference() == 0.0 and path.check()
+
+
+@pytest.mark.parametrize('space', [ob.SE2StateSpace(), ob.DubinsStateSpace(5.0), ob.ReedsSheppStateSpace(5.0)])
+def test_spaces(space):
+    setup = iao.simpleSetup(wall(), space)
+    assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+    path = rows(setup.getSolutionPath())
+    if type(space) is ob.SE2StateSpace:
+        assert ia.check(wall(), path)
+    if isinstance(space, ob.DubinsStateSpace):
+        assert (numpy.diff(path[:, 0]) * numpy.cos(path[:-1, 2]) + numpy.diff(path[:, 1]) * numpy.sin(path[:-1, 2])
+                > 0).all()
+
+
+def test_a_grid_model_on_a_plain_space():
+    world = wall()
+    setup = iao.simpleSetup(world, ob.SE2StateSpace(), motion_model='grid8')
+    assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+    with pytest.raises(ia.Error, match='motion_model grid8 needs a plain SE2StateSpace'):
+        iao.simpleSetup(world, motion_model='grid8').solve(1.0)
+
+
+def test_goals_and_starts():
+    setup = iao.simpleSetup(wall())
+    setup.addStartState(state(setup, (5, -5, 0)))
+    setup.setGoalState(state(setup, (10, -5, 0)))
+    assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().length() == pytest.approx(5.0)
+
+    class Region(ob.GoalSampleableRegion):
+        """Anywhere behind the wall, at two headings."""
+        def sampleGoal(self, goal):
+            self.count = getattr(self, 'count', 0) + 1
+            goal.setX(8.0 + self.count % 5)
+            goal.setY(-5.0)
+            goal.setYaw(math.pi / 2 * (self.count % 2))
+
+        def maxSampleCount(self):
+            return 2 ** 32 - 1
+
+        def couldSample(self):
+            return True
+
+        def distanceGoal(self, other):
+            return max(0.0, 8.0 - other.getX())
+
+    setup = iao.simpleSetup(wall())
+    setup.setGoal(Region(setup.getSpaceInformation()))
+    assert solve(setup) == Type.EXACT_SOLUTION and rows(setup.getSolutionPath())[-1, 0] >= 8.0
+
+
+def test_statuses():
+    assert solve(iao.simpleSetup(wall(CLOSED), approximate=False)) == Type.INFEASIBLE
+    setup = iao.simpleSetup(wall(CLOSED))
+    assert solve(setup) == Type.APPROXIMATE_SOLUTION
+    assert 0.0 < setup.getProblemDefinition().getSolutionDifference() < 30.0
+    assert 'obstacles are in the way' in setup.getPlanner().reason()
+    assert setup.getSolutionPath().check()
+    assert solve(iao.simpleSetup(wall(start=(0, 0, 0)))) == Type.INVALID_START
+    assert solve(iao.simpleSetup(wall(goal=(0, 0, 0)), approximate=False)) == Type.INVALID_GOAL
+    assert solve(iao.simpleSetup(wall(goal=(0, 0, 0)))) == Type.APPROXIMATE_SOLUTION
+    assert iao.simpleSetup(wall()).solve(0.0).getStatus() == Type.TIMEOUT
+
+
+def test_it_ends_when_told():
+    setup = iao.simpleSetup(scenario('narrow_parallel.yaml'), anytime=True)
+    planner = setup.getPlanner()
+    setup.setup()
+    planner.setProblemDefinition(setup.getProblemDefinition())
+    for seconds in (0.05, 0.2):
+        begin = time.monotonic()
+        assert planner.solve(lambda: time.monotonic() - begin > seconds).getStatus() == Type.EXACT_SOLUTION
+        assert time.monotonic() - begin < seconds + 0.1  # 10 ms, but for a machine that does other things, too
+
+
+def test_a_query_goes_on():
+    setup = iao.simpleSetup(wall(), anytime=True)
+    lengths = [(solve(setup, 0.2), setup.getSolutionPath().length())[1] for _ in range(3)]
+    assert lengths == sorted(lengths, reverse=True)
+    setup.getPlanner().params()['reverse_penalty'] = 5.0  # another question
+    assert solve(setup, 0.2) == Type.EXACT_SOLUTION
+    setup.setOptimizationObjective(ob.PathLengthOptimizationObjective(setup.getSpaceInformation()))
+    setup.clear()
+    assert solve(setup, 0.2) == Type.EXACT_SOLUTION
+
+
+def test_planner_data():
+    setup = iao.simpleSetup(wall())
+    data = ob.PlannerData(setup.getSpaceInformation())
+    assert solve(setup) == Type.EXACT_SOLUTION
+    setup.getPlanner().getPlannerData(data)
+    assert data.numStartVertices() == 1 and data.numGoalVertices() == 1
+    assert data.numVertices() > 10 and data.numEdges() == data.numVertices() - 1  # two trees and what joins them
+    assert data.getStartVertex(0).getState().getX() == -10.0 and data.getGoalVertex(0).getState().getX() == 10.0
+    assert data.getEdges(data.getStartIndex(0)) and data.getIncomingEdges(data.getGoalIndex(0))
+    seen, reached = set(), {data.getStartIndex(0)}
+    while reached - seen:
+        at = (reached - seen).pop()
+        seen.add(at)
+        reached |= set(data.getEdges(at))
+    assert data.getGoalIndex(0) in reached
+    setup.getPlannerData(ob.PlannerData(setup.getSpaceInformation()))  # which must not end the program
+
+
+def test_benchmark():
+    setup = iao.simpleSetup(wall())
+    benchmark = ot.Benchmark(setup, 'wall')
+    benchmark.addPlanner(setup.getPlanner())
+    benchmark.addPlanner(og.RRTConnect(setup.getSpaceInformation()))
+    request = ot.Request()
+    request.runCount, request.maxTime, request.displayProgress, request.saveConsoleOutput = 2, 2.0, False, False
+    benchmark.benchmark(request)
+    planners = benchmark.getRecordedExperimentData().planners
+    assert [planner.name for planner in planners] == ['geometric_ImprovedAStar', 'geometric_RRTConnect']
+    for run in planners[0].runs:
+        assert run.to_dict()['correct solution BOOLEAN'] == '1'
+
+
+def test_other_planners_use_the_checker():
+    world = wall()
+    setup = iao.simpleSetup(world)
+    setup.setPlanner(og.RRTConnect(setup.getSpaceInformation()))
+    assert solve(setup, 20.0) == Type.EXACT_SOLUTION
+    path = setup.getSolutionPath()
+    path.interpolate(300)
+    assert world.is_free(rows(path)).all()
+
+
+def pythonSetup(checker):
+    setup = iao.simpleSetup(wall())
+    plain = og.SimpleSetup(setup.getStateSpace())
+    plain.setStateValidityChecker(checker(plain.getSpaceInformation()))
+    plain.setStartAndGoalStates(state(setup, (-10, -5, 0)), state(setup, (10, -5, 0)))
+    planner = iao.ImprovedAStar(plain.getSpaceInformation())
+    plain.setPlanner(planner)
+    return plain, planner
+
+
+def isOpen(x, y):
+    return abs(x) > 2.0 or 3.0 < y < 5.0
+
+
+class OneByOne(ob.StateValidityChecker):
+    def __init__(self, si):
+        super().__init__(si)
+        self.asked, self.fails = 0, False
+
+    def isValid(self, asked):
+        self.asked += 1
+        if self.fails and self.asked > 50:
+            raise RuntimeError('the map is gone')
+        return isOpen(asked.getX(), asked.getY())
+
+
+class Batched(OneByOne):
+    def areValid(self, poses):
+        self.batches = getattr(self, 'batches', 0) + 1
+        return (numpy.abs(poses[:, 0]) > 2.0) | ((poses[:, 1] > 3.0) & (poses[:, 1] < 5.0))
+
+
+def test_checkers_in_python():
+    paths = []
+    for checker in (lambda si: lambda asked: isOpen(asked.getX(), asked.getY()), OneByOne, Batched):
+        setup, planner = pythonSetup(checker)
+        assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+        paths.append(planner.pieces())
+    assert numpy.array_equal(paths[0], paths[1]) and numpy.array_equal(paths[0], paths[2])
+
+
+def test_batches_are_used():
+    made = []
+    setup, _ = pythonSetup(lambda si: made.append(Batched(si)) or made[0])
+    assert solve(setup) == Type.EXACT_SOLUTION
+    assert made[0].batches > 10
+
+
+def test_what_a_checker_raises_arrives():
+    made = []
+    setup, planner = pythonSetup(lambda si: made.append(OneByOne(si)) or made[0])
+    made[0].fails = True
+    with pytest.raises(RuntimeError, match='the map is gone'):
+        setup.solve(10.0)
+    made[0].fails = False
+    assert solve(setup) == Type.EXACT_SOLUTION
+    Batched.areValid = lambda self, poses: [True]
+    setup, planner = pythonSetup(Batched)
+    with pytest.raises(ia.Error, match=r'areValid\(\) must return one bool for each of'):
+        setup.solve(10.0)
+
+
+def test_polygons_and_maps():
+    setup = iao.simpleSetup(wall())
+    si = setup.getSpaceInformation()
+    polygons = iao.FootprintChecker(si, WALL, 'tpcap')
+    cells = numpy.zeros((200, 200), dtype=numpy.uint8)
+    cells[:, 98:102] = 1
+    grid = iao.FootprintChecker(si, cells, 'tpcap', resolution=0.2, origin=(-20, -20, 0))
+    for checker in (polygons, grid):
+        assert checker.isValid(state(setup, (-8, -5, 0))) and not checker.isValid(state(setup, (0, -5, 0)))
+        assert checker.clearance(state(setup, (-8, -5, 0))) > 1.0 and checker.clearance(state(setup, (0, -5, 0))) == 0
+    assert not polygons.isValid(state(setup, (1e4, 0, 0)))
+
+
+def test_parameters():
+    planner = iao.simpleSetup(wall(), heading_bins=36).getPlanner()
+    params = planner.params()
+    assert params.getParam('heading_bins') == '36' and len(params) == len(ia.parameters())
+    params.setParam('heading_bins', '48')
+    assert params['heading_bins'] == 48 and params.hasParam('anytime')
+    params['smoothing'], params['anytime'] = 'none', True
+    assert params['smoothing'] == 'none' and params.getParam('anytime') == '1'
+    params['parameter_set'] = 'hybrid_astar'
+    assert params['smoothing'] != 'none' or params['bidirectional'] is False
+    for name, value, message in (('heading_bin', 3, 'heading_bins'), ('heading_bins', 3.5, 'heading_bins'),
+                                 ('steering_angles', -1, 'steering_angles'), ('motion_model', 'boat', 'motion_model')):
+        before = dict(params)
+        with pytest.raises(ia.Error, match=message):
+            params.setParam(name, value)
+        assert dict(params) == before
+
+
+def test_bad_input():
+    space = ob.SE3StateSpace()
+    si = ob.SpaceInformation(space)
+    for make in (lambda: iao.ImprovedAStar(si), lambda: iao.FootprintChecker(si, wall())):
+        with pytest.raises(ia.Error, match='must be an SE2, a Reeds-Shepp or a Dubins state space, not SE3StateSpace'):
+            make()
+    setup = iao.simpleSetup(wall())
+    checker = iao.FootprintChecker(setup.getSpaceInformation(), wall())
+    with pytest.raises(ia.Error, match='state must be one of an SE2 space, not RealVectorStateType'):
+        checker.isValid(ob.RealVectorStateSpace(4).allocState())
+    with pytest.raises(ia.Error, match='vehicle must be given'):
+        iao.FootprintChecker(setup.getSpaceInformation(), WALL)
+
+
+def test_without_ompl_one_sentence_says_what_to_install():
+    code = "import sys; sys.modules['ompl'] = None; import improved_astar.ompl"
+    done = subprocess.run([sys.executable, '-B', '-c', code], capture_output=True, text=True, check=False)
+    assert done.stderr.splitlines()[-1] == \
+        "ImportError: improved_astar.ompl needs OMPL 2.0.1 or later: pip install 'ompl>=2.0.1'"
+
+
+def test_the_example_and_the_page_run():
+    root = os.environ['PARKING_SOURCE_DIR']
+    with open(os.path.join(root, 'docs', 'python.md'), encoding='utf-8') as page:
+        text = page.read().split("## With OMPL's own Python package")[1]
+    for program in ([os.path.join(root, 'examples', 'python', 'ompl_planner.py')],
+                    ['-c', text.split('```python\n')[1].split('```')[0]]):
+        done = subprocess.run([sys.executable, '-B', *program], cwd=root, capture_output=True, text=True, check=False)
+        assert done.returncode == 0 and ' m' in done.stdout, done.stderr
+
+
+def memory():
+    gc.collect()
+    with open('/proc/self/statm', encoding='ascii') as file:
+        return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 2 ** 20
+
+
+def test_memory_does_not_grow():
+    setup = iao.simpleSetup(wall())
+    for number in range(1000):
+        if number == 300:
+            before = memory()
+        setup.clear()
+        assert setup.solve(1.0)
+    assert memory() - before < 3.0  # MiB
