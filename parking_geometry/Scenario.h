@@ -36,6 +36,7 @@ namespace parking
         Box bounds;                             ///< local bounds of the world; for a grid, the bounding box of the map
         Eigen::Vector2d worldOffset{0.0, 0.0};  ///< local origin in the coordinates of the file, metres
         std::vector<std::string> files;         ///< all files that were read: scenario, map, image, vehicle
+        std::vector<std::string> warnings;      ///< sentences for the user of the files, for example on unknown cells
 
         /** \brief Expresses a local pose in the coordinates of the file. */
         Pose toWorld(const Pose &local) const

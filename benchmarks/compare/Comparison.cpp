@@ -25,6 +25,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include <fnmatch.h>
@@ -144,9 +145,13 @@ namespace parking
 
     void Comparison::reportUnsolvable(UnitRunner &runner) const
     {
+        std::set<std::string> warned;
         for (std::size_t i = 0; i < experiments_.size(); ++i)
         {
             const Experiment &experiment = experiments_[i];
+            for (const std::string &warning : runner.problem(i).scenario().warnings)
+                if (warned.insert(warning).second)
+                    std::cerr << "parking_benchmark: " << warning << std::endl;
             const std::string why = runner.problem(i).whyUnsolvable();
             if (why.empty())
                 continue;

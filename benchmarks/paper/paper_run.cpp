@@ -250,6 +250,8 @@ namespace
             const Scenario scenario = readScenario(file);
             if (options.json != "-")
                 requireNoInput({options.json}, scenario.files);
+            for (const std::string &warning : scenario.warnings)
+                std::cerr << "paper_run: " << warning << std::endl;
             const PaperTask task(scenario, options.variant);
             for (const std::string &algorithm : options.algorithms)
                 runs.push_back(runJson(file.substr(file.find_last_of('/') + 1), algorithm, task,

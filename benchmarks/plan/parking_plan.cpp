@@ -46,6 +46,8 @@ namespace
             const LongStep step("reading " + options.scenario);
             Scenario scenario = readScenario(options.scenario, {options.vehicle});
             requireNoInput(options.outputFiles(), scenario.files);
+            for (const std::string &warning : scenario.warnings)
+                std::cerr << "parking_plan: " << warning << std::endl;
             return Problem(std::move(scenario), settings);
         }();
         PlanReport result;

@@ -33,7 +33,7 @@ namespace parking
         {
             QueryWorld world;
             world.name = fs::path(file).stem().string();
-            world.scenario.grid = readRosMap(file);
+            world.scenario.grid = readRosMap(file, nullptr, &world.scenario.warnings);
             if (!vehicle.empty())
                 world.scenario.vehicle = readVehicle(vehicle);
             return world;

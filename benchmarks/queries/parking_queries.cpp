@@ -178,6 +178,9 @@ namespace
         if (fs::exists(folder / "index.json", failed))
             throw Error(inQuotes(options.output) + " contains queries already; choose another folder, or remove it");
         const std::vector<QueryWorld> worlds = worldsFor(options);
+        for (const QueryWorld &world : worlds)
+            for (const std::string &warning : world.scenario.warnings)
+                std::cerr << "parking_queries: " << warning << std::endl;
         NewFiles files(options.output);
         nlohmann::json index{{"format", 1}, {"seed", options.seed}, {"margin", options.margin}};
         index["queries"] = nlohmann::json::array();

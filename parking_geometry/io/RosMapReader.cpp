@@ -2,11 +2,13 @@
 #include "parking_geometry/io/ScenarioParts.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/io/images/ImageRows.h"
+#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace parking
 {
@@ -24,8 +26,8 @@ namespace parking
         {
             MapMode mode{MapMode::Trinary};
             bool negate{false};
-            double occupied{0.65};
-            double free{0.196};
+            double occupied{0.0};
+            double free{0.0};
 
             /** What a pixel means.
 
@@ -40,8 +42,9 @@ namespace parking
                 double probability = dark / white;
                 if (mode == MapMode::Raw)
                 {
-                    // The pixel is the value of the message: 0 to 100 percent, anything above says unknown.
-                    const double percent = std::round(255.0 * (white - dark) / white);
+                    // The pixel is the value of the message, whatever negate says, as for nav2: 0 to 100 percent,
+                    // anything above says unknown.
+                    const double percent = std::round(255.0 * brightness / white);
                     if (percent > 100.0)
                         return Cell::Unknown;
                     probability = percent / 100.0;
@@ -50,26 +53,52 @@ namespace parking
             }
         };
 
-        double threshold(const YamlMap &map, const std::string &key, double otherwise)
+        /** Throws for a key that says something of the map by another name than the one that is read, which is missing:
+            free_threshold, occ_thresh, map_resolution. Else a missing key would be all that the message tells of. */
+        void refuseOtherNames(const YamlMap &map)
         {
-            const double value = map.numberOr(key, otherwise);
+            const std::pair<const char *, const char *> parts[] = {
+                {"image", "image"},   {"resolution", "resolution"}, {"origin", "origin"},
+                {"negate", "negate"}, {"occ", "occupied_thresh"},   {"free", "free_thresh"}};
+            for (const auto &[part, right] : parts)
+                if (!map.has(right))
+                    for (const std::string &key : map.keys())
+                        if (lowerCase(key).find(part) != std::string::npos)
+                            map.failAtKey(key, "unknown key " + inQuotes(key) + "; did you mean '" + right +
+                                                   "', which is missing?");
+        }
+
+        double threshold(const YamlMap &map, const std::string &key)
+        {
+            const double value = map.number(key);
             if (value < 0.0 || value > 1.0)
                 map.failAt(key, key + " is " + formatNumber(value) + "; it must be 0 to 1");
             return value;
+        }
+
+        /** The grey that map savers write for cells of which nothing was seen. */
+        bool isUnknownOfMapSavers(std::uint32_t brightness, std::uint32_t white)
+        {
+            return brightness != NOT_OPAQUE && std::uint64_t(255) * brightness == std::uint64_t(205) * white;
+        }
+
+        std::string percentText(std::size_t part, std::size_t all)
+        {
+            const double percent = 100.0 * static_cast<double>(part) / static_cast<double>(all);
+            return percent < 0.1 ? "less than 0.1 %" : formatNumber(std::round(10.0 * percent) / 10.0) + " %";
         }
 
         MapRules readRules(const YamlMap &map)
         {
             MapRules rules;
             if (map.has("mode"))
-                rules.mode = static_cast<MapMode>(map.choice("mode", {"trinary", "scale", "raw"}));
+                rules.mode = static_cast<MapMode>(map.choiceInAnyCase("mode", {"trinary", "scale", "raw"}));
             rules.negate = map.has("negate") && map.flag("negate");
-            rules.occupied = threshold(map, "occupied_thresh", rules.occupied);
-            rules.free = threshold(map, "free_thresh", rules.free);
+            rules.occupied = threshold(map, "occupied_thresh");
+            rules.free = threshold(map, "free_thresh");
             if (rules.free > rules.occupied)
-                map.failAt(map.has("free_thresh") ? "free_thresh" : "occupied_thresh",
-                           "free_thresh is " + formatNumber(rules.free) + " and occupied_thresh " +
-                               formatNumber(rules.occupied) + "; the first must not be the larger one");
+                map.failAt("free_thresh", "free_thresh is " + formatNumber(rules.free) + " and occupied_thresh " +
+                                              formatNumber(rules.occupied) + "; the first must not be the larger one");
             return rules;
         }
     }  // namespace
@@ -93,10 +122,16 @@ namespace parking
             throw Error(file + ": is neither a PGM (P2, P5) nor a PNG image");
     }
 
-    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files)
+    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files,
+                             std::vector<std::string> *warnings)
     {
-        const YamlMap map(yamlFile, readFile(yamlFile, TEXT_FILE_LIMIT));
+        const std::string text = readFile(yamlFile, TEXT_FILE_LIMIT);
+        if (!trimmed(text).empty() && trimmed(text).front() == '<')
+            throw Error(yamlFile +
+                        ": is XML; a map is a YAML file that names a PGM or PNG image (see docs/scenarios.md)");
+        const YamlMap map(yamlFile, text);
         map.refuseMisspelt({"image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"});
+        refuseOtherNames(map);
         const std::string name = map.text("image");
         const double resolution = map.number("resolution");
         if (resolution <= 0.0)
@@ -112,6 +147,7 @@ namespace parking
         const std::string bytes = readFile(file, IMAGE_LIMIT);
         OccupancyGrid grid;
         std::uint32_t brightest = 0;
+        std::size_t unknownMadeFree = 0;
         ImageSink sink;
         sink.begin = [&](std::size_t width, std::size_t height, std::uint32_t white)
         {
@@ -121,9 +157,18 @@ namespace parking
         sink.row = [&](std::size_t row, const std::vector<std::uint32_t> &brightness)
         {
             for (std::size_t column = 0; column < brightness.size(); ++column)
-                grid.set(column, grid.height() - 1 - row, rules(brightness[column], brightest));
+            {
+                const Cell cell = rules(brightness[column], brightest);
+                grid.set(column, grid.height() - 1 - row, cell);
+                unknownMadeFree += cell == Cell::Free && isUnknownOfMapSavers(brightness[column], brightest);
+            }
         };
         decodeImage(file, bytes, sink);
+        if (unknownMadeFree > 0 && rules.mode != MapMode::Raw && warnings != nullptr)
+            warnings->push_back(map.placeOf("free_thresh") + ": free_thresh " + formatNumber(rules.free) +
+                                " makes the grey of unknown ground (205 of 255) free: " +
+                                percentText(unknownMadeFree, grid.cells().size()) +
+                                " of the cells; 0.196 keeps them unknown");
         return grid;
     }
 }  // namespace parking

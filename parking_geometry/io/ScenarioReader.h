@@ -41,16 +41,18 @@ namespace parking
 
     /** \brief Reads a ROS map_server map: the YAML file and the PGM (P2, P5) or PNG image that it names.
 
-        Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown. The reader
-        supports `negate`, `mode` and an origin with yaw.
+        Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown. Both keys
+        are required. The reader supports `negate`, `mode` and an origin with yaw as nav2 does.
 
-        Unlike map_server, the reader treats a pixel that is not opaque as unknown in every mode. The trinary mode of
-        map_server averages alpha with the colours. This turns the usual grey for unknown (205) into free in every image
+        Unlike map servers, the reader treats a pixel that is not opaque as unknown in every mode. The trinary mode of map
+        servers averages alpha with the colours. This turns the usual grey for unknown (205) into free in every image
         with an alpha channel.
 
         \param files unless it is null, the names of both files are appended to it
+        \param warnings unless it is null, receives a sentence if free_thresh makes the usual grey for unknown free
         Throws parking::Error naming the file and the invalid line or field. */
-    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files = nullptr);
+    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files = nullptr,
+                             std::vector<std::string> *warnings = nullptr);
 
     /** \brief Reads SurroundOcc occupancy voxels (.npy, int64 (n, 4) = ix, iy, iz, label) as a 200x200 grid of 0.5 m
         cells in the lidar frame.

@@ -170,6 +170,14 @@ namespace parking
         }
     }
 
+    std::vector<std::string> YamlMap::keys() const
+    {
+        std::vector<std::string> names;
+        for (const auto &entry : node_)
+            names.push_back(entry.first.Scalar());
+        return names;
+    }
+
     bool YamlMap::has(const std::string &key) const
     {
         return node_[key].IsDefined();
@@ -246,7 +254,17 @@ namespace parking
 
     std::size_t YamlMap::choice(const std::string &key, const std::vector<std::string> &names) const
     {
-        const std::string value = text(key);
+        return choiceOf(key, text(key), names);
+    }
+
+    std::size_t YamlMap::choiceInAnyCase(const std::string &key, const std::vector<std::string> &names) const
+    {
+        return choiceOf(key, lowerCase(text(key)), names);
+    }
+
+    std::size_t YamlMap::choiceOf(const std::string &key, const std::string &value,
+                                  const std::vector<std::string> &names) const
+    {
         const auto found = std::find(names.begin(), names.end(), value);
         if (found == names.end())
             failAt(key, unknownName(key, value, names));
@@ -278,6 +296,14 @@ namespace parking
     void YamlMap::failAt(const std::string &key, const std::string &message) const
     {
         fail(node_[key], message);
+    }
+
+    void YamlMap::failAtKey(const std::string &key, const std::string &message) const
+    {
+        for (const auto &entry : node_)
+            if (entry.first.Scalar() == key)
+                fail(entry.first, message);
+        fail(node_, message);
     }
 
     std::string YamlMap::placeOf(const std::string &key) const

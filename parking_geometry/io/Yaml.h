@@ -31,6 +31,9 @@ namespace parking
             This check is for files of other programs, which may contain further keys. */
         void refuseMisspelt(const std::vector<std::string> &known) const;
 
+        /** \brief All keys in the order of the file. */
+        std::vector<std::string> keys() const;
+
         /** \brief Whether the key is present, with any value. */
         bool has(const std::string &key) const;
 
@@ -58,6 +61,9 @@ namespace parking
         /** \brief Index in \e names of the value, which must be one of them. */
         std::size_t choice(const std::string &key, const std::vector<std::string> &names) const;
 
+        /** \brief choice() that ignores case; \e names are in lower case. */
+        std::size_t choiceInAnyCase(const std::string &key, const std::vector<std::string> &names) const;
+
         /** \brief The numbers of a sequence of exactly \e count elements. \param what name of the sequence in
             messages */
         std::vector<double> numbers(const YAML::Node &sequence, std::size_t count, const std::string &what) const;
@@ -69,6 +75,9 @@ namespace parking
         /** \brief Throws parking::Error with the file, the line of the value of \e key and \e message. For a blank
             value the message names the line of the key. */
         [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
+
+        /** \brief Throws parking::Error with the file, the line of the key itself and \e message. */
+        [[noreturn]] void failAtKey(const std::string &key, const std::string &message) const;
 
         /** \brief The file and the line of \e at for messages, for example "lot.yaml:12". */
         std::string place(const YAML::Node &at) const;
@@ -84,6 +93,8 @@ namespace parking
 
     private:
         void check() const;
+        std::size_t choiceOf(const std::string &key, const std::string &value,
+                             const std::vector<std::string> &names) const;
 
         std::string file_;
         std::string what_;

@@ -52,7 +52,7 @@ namespace parking
 
         /** Reads a map_server map or a SurroundOcc file. The first bytes determine the format, because extensions are
             arbitrary. */
-        OccupancyGrid readGrid(const YamlMap &map, std::vector<std::string> &files)
+        OccupancyGrid readGrid(const YamlMap &map, std::vector<std::string> &files, std::vector<std::string> &warnings)
         {
             const std::string name = map.textOr("map", "the path of a map, or a mapping with the key polygons");
             const std::string file = besides(map.file(), name);
@@ -61,7 +61,7 @@ namespace parking
                 map.failAt("map", "map is the image " + inQuotes(name) +
                                       "; name the map's YAML file, which holds its resolution and origin");
             if (extension != ".npy")
-                return readRosMap(file, &files);
+                return readRosMap(file, &files, &warnings);
             files.push_back(file);
             return readSurroundOcc(file);
         }
@@ -110,7 +110,7 @@ namespace parking
                 scenario.polygons = readPolygons(*polygons, scenario.worldOffset);
                 return;
             }
-            scenario.grid = readGrid(map, scenario.files);
+            scenario.grid = readGrid(map, scenario.files, scenario.warnings);
             Pose origin = scenario.grid->origin();
             origin.x -= scenario.worldOffset.x();
             origin.y -= scenario.worldOffset.y();

@@ -74,15 +74,17 @@ namespace parking
 
     bool isMisspelt(const std::string &name, const std::vector<std::string> &known)
     {
+        if (std::find(known.begin(), known.end(), name) != known.end())
+            return false;
         const std::string wanted = lowerCase(name.substr(0, 64));
-        std::size_t smallest = 3;
-        for (const std::string &candidate : known)
-        {
-            if (candidate == name)
-                return false;
-            smallest = std::min(smallest, editDistance(wanted, lowerCase(candidate)));
-        }
-        return smallest <= 2;
+        return std::any_of(known.begin(), known.end(),
+                           [&wanted](const std::string &candidate)
+                           {
+                               const std::string lower = lowerCase(candidate);
+                               if (lower.size() < 6)
+                                   return std::is_permutation(lower.begin(), lower.end(), wanted.begin(), wanted.end());
+                               return editDistance(wanted, lower) <= 2;
+                           });
     }
 
     std::string unknownName(const std::string &what, const std::string &name, const std::vector<std::string> &known)

@@ -14,7 +14,10 @@ namespace parking
         name requires changes of more than a third of the letters and additions of more than half. */
     std::string nearestName(const std::string &name, const std::vector<std::string> &known);
 
-    /** \brief Whether \e name is not in \e known but differs from a known name by at most two letters. */
+    /** \brief Whether \e name is not in \e known but differs from a known name by at most two letters.
+
+        A known name with fewer than six letters must consist of the same letters, in any case and order, because too
+        many other words are similar to it. */
     bool isMisspelt(const std::string &name, const std::vector<std::string> &known);
 
     /** \brief The one-line message for an unknown name, with the most similar known name, if any, and all known names.

@@ -62,7 +62,7 @@ const Formats = (() => {
     if (list === null) fail(file, 0, 'polygons is nothing; write [] for none');
     if (!Array.isArray(list)) fail(file, 0, 'polygons must be a list of polygons, each a list of [x, y]');
     return list.map((polygon, index) => {
-      if (!Array.isArray(polygon) || polygon.length < 3) fail(file, 0, `polygon ${index + 1} must be a list of at least 3 corners [x, y]`);
+      if (!Array.isArray(polygon) || !polygon.length) fail(file, 0, `polygon ${index + 1} must be a list of corners [x, y]`);
       return polygon.map(corner => numbers(file, `a corner of polygon ${index + 1}`, corner, 2));
     });
   }
@@ -164,8 +164,9 @@ const Formats = (() => {
     if (!bytes || typeof bytes === 'string') fail(file, 0, `its image '${short(image)}' is missing: drop it together with this file`);
     if (!isPgm(bytes) && !isPng(bytes)) fail(image, 0, 'is neither a PGM (P2, P5) nor a PNG image');
     const picture = isPgm(bytes) ? readPgm(image, bytes) : await readPng(image, bytes);
-    const occupied = isNumber(yaml.occupied_thresh) ? yaml.occupied_thresh : 0.65, free = isNumber(yaml.free_thresh) ? yaml.free_thresh : 0.196;
-    return { ...cellsOf(picture, { negate: yaml.negate === 1 || yaml.negate === true, occupied, free, raw: yaml.mode === 'raw' }), resolution: yaml.resolution, origin, unknownIsOccupied: true, name: nameOf(file) };
+    for (const key of ['occupied_thresh', 'free_thresh']) if (!isNumber(yaml[key])) fail(file, 0, `${key} must be a number`);
+    const rules = { negate: yaml.negate === 1 || yaml.negate === true, occupied: yaml.occupied_thresh, free: yaml.free_thresh, raw: String(yaml.mode).toLowerCase() === 'raw' };
+    return { ...cellsOf(picture, rules), resolution: yaml.resolution, origin, unknownIsOccupied: true, name: nameOf(file) };
   }
 
   function cellsOf(picture, rules) {
@@ -177,7 +178,7 @@ const Formats = (() => {
         if (brightness >= 0) {
           const dark = rules.negate ? brightness : white - brightness;
           let probability = dark / white;
-          if (rules.raw) { const percent = Math.round(255 * (white - dark) / white); probability = percent > 100 ? NaN : percent / 100; }
+          if (rules.raw) { const percent = Math.round(255 * brightness / white); probability = percent > 100 ? NaN : percent / 100; }
           cell = probability > rules.occupied ? 1 : probability < rules.free ? 0 : 2;
         }
         cells[(height - 1 - row) * width + column] = cell;

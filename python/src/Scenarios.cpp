@@ -17,6 +17,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace parking::python
 {
@@ -48,9 +49,18 @@ namespace parking::python
             return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
         }
 
-        OccupancyGrid readGrid(const std::string &file)
+        OccupancyGrid readGrid(const std::string &file, std::vector<std::string> &warnings)
         {
-            return std::filesystem::path(file).extension() == ".npy" ? readSurroundOcc(file) : readRosMap(file);
+            return std::filesystem::path(file).extension() == ".npy" ? readSurroundOcc(file)
+                                                                     : readRosMap(file, nullptr, &warnings);
+        }
+
+        /** Passes on what the reader of a file has to say. Throws where warnings are errors. */
+        void warn(const std::vector<std::string> &warnings)
+        {
+            for (const std::string &each : warnings)
+                if (PyErr_WarnEx(PyExc_UserWarning, each.c_str(), 1) != 0)
+                    throw py::error_already_set();
         }
 
         /** A scenario with start, goals, slot, car and name, but without a world. */
@@ -111,7 +121,8 @@ namespace parking::python
             {
                 if (!resolution.is_none() || !origin.is_none())
                     throw Error("resolution and origin are defined by the file of the map: omit them");
-                scenario.grid = readGrid(fileFrom(grid, "grid"));
+                scenario.grid = readGrid(fileFrom(grid, "grid"), scenario.warnings);
+                warn(scenario.warnings);
             }
             else
             {
@@ -246,8 +257,11 @@ rear axle. A scenario is immutable; replace() returns a modified copy.)";
                     const std::string file = fileFrom(path, "path");
                     const auto read = [&](const ReaderOptions &options)
                     {
-                        return text.is_none() ? readScenario(file, options)
-                                              : parseScenario(file, py::cast<std::string>(py::bytes(text)), options);
+                        Scenario scenario = text.is_none()
+                                                ? readScenario(file, options)
+                                                : parseScenario(file, py::cast<std::string>(py::bytes(text)), options);
+                        warn(scenario.warnings);
+                        return scenario;
                     };
                     if (!vehicle.is_none() && py::isinstance<Vehicle>(vehicle))
                     {

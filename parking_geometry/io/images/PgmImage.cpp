@@ -137,7 +137,14 @@ namespace parking
                         std::to_string(left) + " bytes for them");
         sink.begin(width, height, static_cast<std::uint32_t>(white));
         if (raw)
-            decodeRaw(file, std::string_view(bytes).substr(words.position() + 1), width, height, white, sink);
+        {
+            std::string_view raster = std::string_view(bytes).substr(words.position() + 1);
+            // One blank ends the header; of a header with Windows' line ends it is two bytes.
+            const bool endsWithCrLf = bytes.compare(words.position(), 2, "\r\n") == 0;
+            if (endsWithCrLf && raster.size() > width * height * (white > 255 ? 2 : 1))
+                raster.remove_prefix(1);
+            decodeRaw(file, raster, width, height, white, sink);
+        }
         else
             decodePlain(file, words, width, height, white, sink);
     }

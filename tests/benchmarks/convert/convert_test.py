@@ -198,7 +198,7 @@ class ProblemsTest(ConvertTest):
         self.assertEqual(sorted(os.listdir()), ['case.csv', 'knot.csv', 'knot.svg', 'long.csv', 'ok.yaml'])
 
     def test_the_map_of_a_scenario_is_not_written_over(self):
-        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         self.write('map.pgm', b'P5\n100 100\n255\n' + b'\xfe' * 10000)
         self.write('on_map.yaml', 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [5, 2, 0]\n')
         for name in ('on_map.yaml', 'map.yaml', 'map.pgm'):

@@ -83,7 +83,9 @@ namespace
         const parking_test::TemporaryFolder folder;
         folder.write("Case1.csv", "4e9,5,0,4e9,15,1.5,1,4,4000000006,0,4000000009,0,4000000009,3,4000000006,3\n");
         folder.write("lot.pgm", std::string("P5\n60 50\n255\n") + std::string(60 * 50, static_cast<char>(254)));
-        folder.write("lot.yaml", "image: lot.pgm\nresolution: 0.5\norigin: [3, 4, 0.5]\n");
+        folder.write(
+            "lot.yaml",
+            "image: lot.pgm\nresolution: 0.5\norigin: [3, 4, 0.5]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
         const std::vector<QueryWorld> worlds = worldsOf(folder.path(""), "toyota_yaris");
         ASSERT_EQ(worlds.size(), 2U);
         for (const QueryWorld &world : worlds)

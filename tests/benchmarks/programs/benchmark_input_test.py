@@ -116,7 +116,7 @@ class Unsolvable(InputTest):
 
     def setUp(self):
         super().setUp()
-        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         rows = (b'\xfe' * 60 + b'\0' * 5 + b'\xfe' * 35) * 100  # a wall 6 m from the left
         self.write('map.pgm', b'P5\n100 100\n255\n' + rows)
         self.write('on_map.yaml', 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [2, 7, 0]\nvehicle: tpcap\n')

@@ -7,7 +7,7 @@ import subprocess
 from programs import PLAN, ProgramTest, bundled, main
 
 CASE = '0,0,0,5,5,0,1,4,2,2,3,2,3,3,2,3\n'
-MAP = 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n'
+MAP = 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n'
 GRID_OF_A_CAR = ['--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle']
 ON_MAP = 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [8, 2, 0]\n'
 

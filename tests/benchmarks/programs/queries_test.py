@@ -62,9 +62,9 @@ class QueriesTest(ProgramTest):
         self.assertNotIn(result['status'], ('invalid_start', 'invalid_goal'))
 
     def test_nothing_stays_of_what_fails(self):
-        self.write('worlds/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('worlds/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         self.write('worlds/a.pgm', b'P5\n400 400\n255\n' + b'\xfe' * 160000)
-        self.write('worlds/b.yaml', 'image: b.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('worlds/b.yaml', 'image: b.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         self.write('worlds/b.pgm', b'P5\n9 9\n255\n' + b'\xfe' * 81)  # no car has room there
         self.write('old/maps/mine.txt', 'mine')
         for output in ('new/folder', 'old'):
@@ -75,7 +75,7 @@ class QueriesTest(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.path('new/folder'))), ['a_1.yaml', 'index.json', 'maps'])
 
     def test_nothing_is_written_over(self):
-        self.write('q/maps/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('q/maps/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         self.write('q/maps/a.pgm', b'P5\n400 400\n255\n' + b'\xfe' * 160000)
         before = self.read('q/maps/a.yaml')
         done = self.run_program(QUERIES, '--from', 'q/maps', '--output', 'q', '--queries', '1')

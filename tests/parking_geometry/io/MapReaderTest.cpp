@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -13,14 +14,22 @@ using namespace parking_test;
 
 namespace
 {
+    const std::string THRESHOLDS = "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
     class MapReader : public testing::Test
     {
     protected:
         /** Reads an image with a YAML file of its own; \e more are further lines of it. */
-        OccupancyGrid read(const std::string &image, const std::string &more = "")
+        OccupancyGrid read(const std::string &image, const std::string &more = "",
+                           std::vector<std::string> *warnings = nullptr)
         {
             folder_.write("map.img", image);
-            return readRosMap(folder_.write("map.yaml", "image: map.img\nresolution: 0.1\norigin: [0, 0, 0]\n" + more));
+            std::string text = "image: map.img\nresolution: 0.1\norigin: [0, 0, 0]\n" + more;
+            if (more.find("free_thresh") == std::string::npos)
+                text += "free_thresh: 0.196\n";
+            if (more.find("occupied_thresh") == std::string::npos)
+                text += "occupied_thresh: 0.65\n";
+            return readRosMap(folder_.write("map.yaml", text), nullptr, warnings);
         }
 
         /** The cells as letters, top row first, as one sees the image. */
@@ -114,7 +123,15 @@ TEST_F(MapReader, ReadsImagesAsMapServersDo)
         {modes, "mode: trinary\n", ".?#?#"},
         {modes, "mode: scale\n", ".?#?#"},
         {"P2 6 1 255  255 101 100 66 65 10", "mode: raw\n", "??##?."},
-        {"P2 3 1 255  255 155 154", "mode: raw\nnegate: 1\n", ".#?"},
+        // It is that whatever negate says, as for nav2.
+        {"P2 5 1 255  255 101 100 10 0", "mode: raw\nnegate: 1\n", "??#.."},
+        {"P2 3 1 255  255 205 0", "mode: Trinary\n", ".?#"},
+        {"P2 2 1 255  10 205", "mode: RAW\n", ".?"},
+        // Headers with Windows' line ends, and a pixel that looks like the second half of one.
+        {raw("P5\r\n# a\r\n3 1\r\n255\r\n", {254, 205, 0}), "", ".?#"},
+        {raw("P5\r\n3 1\r\n255\r\n", {10, 254, 0, '\n'}), "", "#.#"},
+        {raw("P5\r\n2 1\r\n65535\r\n", {0xFF, 0xFF, 0x00, 0x00}), "", ".#"},
+        {raw("P5 3 1 255\r", {'\n', 254, 0}), "", "#.#"},
     };
     for (const Image &each : images)
         EXPECT_EQ(cells(each.image, each.more), each.cells) << each.image << ' ' << each.more;
@@ -128,7 +145,7 @@ TEST_F(MapReader, OriginKeepsItsYaw)
 {
     folder_.write("map.img", "P2 2 1 1 0 1");
     const OccupancyGrid grid =
-        readRosMap(folder_.write("map.yaml", "image: map.img\nresolution: 2\norigin: [3, -4, 7]\n"));
+        readRosMap(folder_.write("map.yaml", "image: map.img\nresolution: 2\norigin: [3, -4, 7]\n" + THRESHOLDS));
     EXPECT_EQ(grid.origin().x, 3.0);
     EXPECT_EQ(grid.origin().y, -4.0);
     EXPECT_NEAR(grid.origin().yaw, 7.0 - 2 * PI, 1e-12);
@@ -204,7 +221,7 @@ TEST_F(MapReader, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken)
 
 TEST_F(MapReader, DevicesAreNoImages)
 {
-    expectYamlError("image: /dev/zero\nresolution: 1\norigin: [0, 0, 0]\n", {"/dev/zero", "device"});
+    expectYamlError("image: /dev/zero\nresolution: 1\norigin: [0, 0, 0]\n" + THRESHOLDS, {"/dev/zero", "device"});
 }
 
 TEST_F(MapReader, OtherImageTroubleIsNamed)
@@ -224,7 +241,7 @@ TEST_F(MapReader, OtherImageTroubleIsNamed)
 
 TEST_F(MapReader, YamlTroubleIsNamedWithItsLine)
 {
-    const std::string good = "image: map.img\nresolution: 1\norigin: [0, 0, 0]\n";
+    const std::string good = "image: map.img\nresolution: 1\norigin: [0, 0, 0]\n" + THRESHOLDS;
     folder_.write("map.img", "P2 2 1 1 0 1");
     EXPECT_NO_THROW(readRosMap(folder_.write("map.yaml", good + "frame: world\n")));
     expectYamlError("resolution: 1\norigin: [0, 0, 0]\n", {"map.yaml:1", "'image' is missing"});
@@ -236,13 +253,62 @@ TEST_F(MapReader, YamlTroubleIsNamedWithItsLine)
     expectYamlError("image: map.img\nresolution: -1\norigin: [0, 0, 0]\n", {"map.yaml:2", "resolution is -1"});
     expectYamlError("image: map.img\nresolution: .inf\norigin: [0, 0, 0]\n", {"map.yaml:2", "resolution"});
     expectYamlError("image: map.img\nresolution: 1\norigin: [0, 0]\n", {"map.yaml:3", "origin has 2 entries"});
-    expectYamlError(good + "negate: 2\n", {"map.yaml:4", "negate is '2'"});
-    expectYamlError(good + "mode: ternary\n", {"map.yaml:4", "'ternary'", "'trinary'"});
-    expectYamlError(good + "negat: 1\n", {"map.yaml:4", "'negat'", "'negate'"});
-    expectYamlError(good + "free_thresh: 1.5\n", {"map.yaml:4", "free_thresh is 1.5", "0 to 1"});
-    expectYamlError(good + "free_thresh: 0.7\n", {"map.yaml:4", "free_thresh is 0.7", "0.65"});
-    expectYamlError("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n", {"none.pgm", "No such file"});
+    expectYamlError(good + "negate: 2\n", {"map.yaml:6", "negate is '2'"});
+    expectYamlError(good + "mode: ternary\n", {"map.yaml:6", "'ternary'", "'trinary'"});
+    expectYamlError(good + "negat: 1\n", {"map.yaml:6", "'negat'", "'negate'"});
+    const std::string poses = "image: map.img\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\n";
+    expectYamlError(poses + "free_thresh: 1.5\n", {"map.yaml:5", "free_thresh is 1.5", "0 to 1"});
+    expectYamlError(poses + "free_thresh: 0.7\n", {"map.yaml:5", "free_thresh is 0.7", "0.65"});
+    expectYamlError("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n" + THRESHOLDS, {"none.pgm", "No such file"});
     expectError([&] { readRosMap(folder_.path("none.yaml")); }, {"none.yaml", "No such file"});
+}
+
+TEST_F(MapReader, NamesTheKeyThatIsMeant)
+{
+    const std::string good = "image: map.img\nresolution: 1\norigin: [0, 0, 0]\n" + THRESHOLDS;
+    const auto renamed = [&good](const std::string &from, const std::string &to)
+    {
+        return std::string(good).replace(good.find(from), from.size(), to);
+    };
+    const std::pair<const char *, const char *> others[] = {{"free_thresh", "free_threshold"},
+                                                            {"free_thresh", "thresh_free"},
+                                                            {"occupied_thresh", "occ_thresh"},
+                                                            {"occupied_thresh", "occupied_threshold"},
+                                                            {"resolution", "map_resolution"},
+                                                            {"origin", "map_origin"},
+                                                            {"image", "images"},
+                                                            {"image", "image_file"}};
+    for (const auto &[right, other] : others)
+    {
+        const std::size_t line = 1 + static_cast<std::size_t>(std::count(
+                                         good.begin(), good.begin() + static_cast<long>(good.find(right)), '\n'));
+        expectYamlError(renamed(right, other),
+                        {"map.yaml:" + std::to_string(line), "unknown key '" + std::string(other),
+                         "did you mean '" + std::string(right) + "'"});
+    }
+    expectYamlError("<?xml version=\"1.0\"?><osm/>", {"map.yaml: is XML", "PGM or PNG"});
+    expectYamlError(good + "negated: 1\n", {"map.yaml:6", "'negated'", "'negate'"});
+    expectYamlError(good + "mdoe: raw\n", {"map.yaml:6", "'mdoe'", "'mode'"});
+    expectYamlError(renamed("free_thresh: 0.196\n", ""), {"'free_thresh' is missing"});
+    expectYamlError(renamed("occupied_thresh: 0.65\n", ""), {"'occupied_thresh' is missing"});
+    // Keys of other programs are no business of this reader, however near to one of its own.
+    for (const char *key : {"zone", "node", "nodes", "pose", "code", "home", "more", "model", "page", "frame",
+                            "origin_gps", "free_space_version", "negative_obstacles", "image_size"})
+        EXPECT_NO_THROW(readRosMap(folder_.write("map.yaml", good + key + ": yard\n"))) << key;
+}
+
+TEST_F(MapReader, WarnsWhereUnknownGroundBecomesFree)
+{
+    const std::string image = "P2 5 2 255  205 254 254 254 0  205 206 204 205 0";
+    std::vector<std::string> warnings;
+    read(image, "", &warnings);
+    read(image, "negate: 1\nfree_thresh: 0.25\n", &warnings);
+    read(image, "mode: raw\nfree_thresh: 0.25\n", &warnings);
+    EXPECT_TRUE(warnings.empty());
+    read(image, "free_thresh: 0.25\n", &warnings);
+    ASSERT_EQ(warnings.size(), 1u);
+    for (const char *part : {"map.yaml:4: free_thresh 0.25", "30 % of the cells", "0.196"})
+        EXPECT_NE(warnings.front().find(part), std::string::npos) << warnings.front();
 }
 
 TEST_F(MapReader, ReadsTheRealMaps)

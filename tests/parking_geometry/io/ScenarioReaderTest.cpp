@@ -376,7 +376,9 @@ TEST_F(YamlReader, SaysWhichFilesAScenarioWasReadFrom)
         "wheelbase: 2.4\nfront_overhang: 0.8\nrear_overhang: 0.7\nwidth: 1.7\nmax_steering_angle: 0.6\n";
     folder_.write("cars/mine.yaml", fields);
     const std::string other = folder_.write("other.yaml", fields);
-    folder_.write("maps/lot.yaml", "image: ../images/lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+    folder_.write(
+        "maps/lot.yaml",
+        "image: ../images/lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
     folder_.write("images/lot.pgm", "P2 2 2 1 1 1 1 1");
     EXPECT_EQ(names(read(SCENARIO)), "example.yaml ");
     const std::string text = "start: [0.5, 0.5, 0]\ngoal: [0.6, 0.5, 0]\nmap: maps/lot.yaml\nvehicle: cars/mine.yaml\n";
@@ -410,7 +412,9 @@ TEST_F(YamlReader, AliasesDoNotMultiplyCornersWithoutBound)
 
 TEST_F(YamlReader, PutsAMapIntoTheFrameOfTheStart)
 {
-    folder_.write("maps/lot.yaml", "image: lot.pgm\nresolution: 0.5\norigin: [4000000000, 100, 0]\n");
+    folder_.write(
+        "maps/lot.yaml",
+        "image: lot.pgm\nresolution: 0.5\norigin: [4000000000, 100, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
     folder_.write(
         "maps/lot.pgm", "P2 20 10 1\n" +
                             []
@@ -440,7 +444,9 @@ TEST_F(YamlReader, PutsAMapIntoTheFrameOfTheStart)
 
 TEST_F(YamlReader, ATurnedMapIsBoundedByItsBox)
 {
-    folder_.write("lot.yaml", "image: lot.pgm\nresolution: 1\norigin: [1, 1, 1.5707963267948966]\n");
+    folder_.write("lot.yaml",
+                  "image: lot.pgm\nresolution: 1\norigin: [1, 1, 1.5707963267948966]\noccupied_thresh: "
+                  "0.65\nfree_thresh: 0.196\n");
     folder_.write("lot.pgm", "P2 4 2 1  1 1 1 1 1 1 1 1");
     const Scenario scenario = read("start: [0, 2, 0]\ngoal: [0, 3, 0]\nmap: lot.yaml\n");
     EXPECT_NEAR(scenario.bounds.min.x(), -1.0, 1e-9);
@@ -462,7 +468,8 @@ TEST_F(YamlReader, RefusesWhatHasNoMeaning)
         EXPECT_EQ(read(with(with(text, "angled", "parallel"), "angle: 0.8", "entry: " + entry)).goals.size(), 1u);
     expectYamlError(PLAIN + "unknown_is_occupied: false\n",
                     {"example.yaml:6: unknown_is_occupied", "polygons", "only cells of a map"});
-    folder_.write("lot.yaml", "image: lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+    folder_.write("lot.yaml",
+                  "image: lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
     folder_.write("lot.pgm", "P2 2 2 1 1 1 1 1");
     const std::string map = "start: [0.5, 0.5, 0]\ngoal: [0.6, 0.5, 0]\nmap: lot.yaml\n";
     EXPECT_FALSE(read(map + "unknown_is_occupied: false\n").unknownIsOccupied);

@@ -54,6 +54,9 @@ TEST(NearestName, TellsAMisspeltNameFromAnotherOne)
     EXPECT_TRUE(isMisspelt("Image", keys));
     EXPECT_FALSE(isMisspelt("negate", keys));
     EXPECT_FALSE(isMisspelt("frame_id", keys));
+    EXPECT_TRUE(isMisspelt("imgae", keys));
+    EXPECT_FALSE(isMisspelt("page", keys));
+    EXPECT_FALSE(isMisspelt("images", keys));
 }
 
 TEST(Text, NumbersAreReadStrictly)
