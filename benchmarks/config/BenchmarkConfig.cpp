@@ -215,6 +215,25 @@ namespace parking
             };
         }
 
+        double notNegative(Text key, Text value)
+        {
+            const double number = finiteNumber(key, value);
+            if (number < 0.0)
+                throw Error(key + " must not be negative, and " + inQuotes(value) + " is");
+            return number;
+        }
+
+        /** Accepts OMPL.app's distance at which a goal counts as reached only if it is tiny. */
+        void requireExactGoals(Text key, Text value)
+        {
+            constexpr double EXACT = 1e-4;  // metres: tolerance of the referee at the end of a path
+            if (notNegative(key, value) > EXACT)
+                throw Error(key +
+                            " is OMPL.app's distance at which a goal counts as reached. Goals are reached exactly " +
+                            "here, so it must be at most 0.0001. objective.threshold is the length at which anytime " +
+                            "planners stop");
+        }
+
         auto whole(std::size_t max)
         {
             return [max](Text key, Text value)
@@ -258,7 +277,12 @@ namespace parking
              {
                  choiceNamed(key, value, {"length"});
              }},
-            {"threshold", intoSettings(&Settings::threshold, positive())},
+            {"objective.threshold", intoSettings(&Settings::threshold, notNegative)},
+            {"threshold",
+             [](Problems &, Text key, Text value)
+             {
+                 requireExactGoals(key, value);
+             }},
             {"sampler", into(&Problems::sampler, oneOf({"uniform", "gaussian", "obstacle_based", "bridge_test"}))}};
 
         using Config = BenchmarkConfig;
@@ -274,6 +298,24 @@ namespace parking
             {"trajectory", into(&Config::trajectory, switchNamed)},
             {"clock", into(&Config::processorTime, isProcessorClock)}};
 
+        /** Sentence that names the replacement of a key of OMPL.app's files; empty for other keys. */
+        std::string hintFor(const std::string &key)
+        {
+            const std::pair<const char *, const char *> hints[] = {
+                {"world", "the obstacles are part of the scenario: scenario = FILE"},
+                {"robot", "the car is part of the scenario: scenario = FILE, or vehicle = NAME"},
+                {"statespace", "the space is chosen by space = reeds_shepp, dubins or se2"},
+                {"turningradius", "the turning radius is that of the car: vehicle = NAME"},
+                {"control", "planners with controls are chosen in [planner], for example control_RRT="},
+                {"solution_length", "the length of every path is in the results; leave it out"},
+                {"longest_valid_segment_fraction", "motions are checked as a whole, not step by step; leave it out"},
+                {"projection.", "projections are those of OMPL's spaces; leave it out"}};
+            for (const auto &[name, hint] : hints)
+                if (key == name || (std::string(name).back() == '.' && key.compare(0, std::strlen(name), name) == 0))
+                    return hint;
+            return "";
+        }
+
         /** \param section name used in the message about an unknown key */
         template <class Options>
         void setByKey(const Keys<Options> &keys, const std::string &section, Options &options, Text key, Text value)
@@ -285,6 +327,8 @@ namespace parking
                     return set(options, key, value);
                 names.push_back(name);
             }
+            if (const std::string hint = hintFor(key); !hint.empty())
+                throw Error("unknown key of " + section + " " + inQuotes(key) + "; " + hint);
             throw Error(unknownName("key of " + section, key, names));
         }
 
@@ -308,6 +352,9 @@ namespace parking
         {
             const auto &[section, key, value, where] = line;
             const std::size_t dot = key.find('.');
+            if (dot != std::string::npos && key.compare(0, dot, "problem") == 0)
+                throw Error(inQuotes(key) + " names no planner; write NAME." + key + " for one planner, or " +
+                            inQuotes(key.substr(dot + 1)) + " in [problem] for all of them");
             const PlannerEntry &entry = registry.find(key.substr(0, dot));
             if (dot == std::string::npos)
             {

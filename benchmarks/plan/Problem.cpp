@@ -12,6 +12,7 @@
 
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/goals/GoalStates.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
@@ -48,6 +49,12 @@ namespace parking
         }
 
         constexpr const char *TURNING_RADIUS = "turning_radius";
+
+        bool isOn(ob::Planner &planner, const std::string &parameter)
+        {
+            std::string value;
+            return planner.params().getParam(parameter, value) && (value == "1" || value == "true");
+        }
 
         /** Throws SettingError for a turning radius below the car's, which this project's planner would ignore. */
         void requireUsedRadius(const std::string &planner, const PlannerSettings &settings, const Problem &problem)
@@ -247,11 +254,19 @@ namespace parking
             prepared.setup->setOptimizationObjective(objective);
         }
         else
+        {
             // A planner that improves paths without this objective defines itself when to stop (improved_astar with
             // `anytime`).
             prepared.problem()->setIntermediateSolutionCallback(
                 [record = prepared.planner->record()](const ob::Planner *, const std::vector<const ob::State *> &,
                                                       ob::Cost cost) { record->note(cost.value()); });
+            if (settings_.threshold > 0.0 && isOn(*planner, "anytime"))
+            {
+                const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+                objective->setCostThreshold(ob::Cost(settings_.threshold));
+                prepared.setup->setOptimizationObjective(objective);
+            }
+        }
         prepared.setup->setPlanner(prepared.planner);
         try
         {

@@ -36,7 +36,7 @@ namespace parking
         SpaceKind space{SpaceKind::ReedsShepp};             ///< curves that join states
         FootprintKind footprint{FootprintKind::Rectangle};  ///< shape that must stay free of obstacles
         double circleRadius{0.0};                           ///< radius in metres; 0: half of the car's width
-        double threshold{0.0};                              ///< metres; optimising planners stop at a shorter path
+        double threshold{0.0};  ///< metres; anytime planners stop at a shorter path; 0: none
     };
 
     /** \brief Names in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle. The readers throw

@@ -32,7 +32,8 @@ namespace
 scenario = a.yaml   # another
 scenario = sub/b.csv
 vehicle = tpcap
-threshold = 3.5
+objective.threshold = 3.5
+threshold = 1e-15
 start.x = 1
 start.y = 2
 start.theta = 0.5
@@ -185,6 +186,34 @@ rrt=
         read(
             "[problem]\nscenario = a\ncircle_radius = 1\nspace = se2\nfootprint = circle\n[planner]\nprm=\nrrt=\n"
             "rrt.problem.footprint=rectangle\n");
+    }
+
+    TEST_F(BenchmarkConfigTest, SaysWhatToWriteForKeysOfOmplApp)
+    {
+        const std::pair<const char *, const char *> hints[] = {{"threshold = 20", "objective.threshold"},
+                                                               {"threshold = 1e-3", "at most 0.0001"},
+                                                               {"threshold = -1", "negative"},
+                                                               {"objective.threshold = -1", "negative"},
+                                                               {"world = a.dae", "scenario = FILE"},
+                                                               {"robot = a.dae", "vehicle = NAME"},
+                                                               {"statespace = dubins", "space = "},
+                                                               {"turningradius = 5", "vehicle = NAME"},
+                                                               {"control = kinematic_car", "control_RRT="},
+                                                               {"solution_length = 1", "leave it out"},
+                                                               {"longest_valid_segment_fraction = 0.1", "leave it out"},
+                                                               {"projection.cellsize.0 = 1", "leave it out"}};
+        for (const auto &[line, hint] : hints)
+        {
+            const std::string key = std::string(line).substr(0, std::string(line).find(' '));
+            expectError([&] { read(std::string("[problem]\nscenario = a\n") + line + "\n[planner]\nrrt=\n"); },
+                        {"set.cfg:3: ", key, hint});
+            expectError([&] { read(std::string("[problem]\nscenario = a\n[planner]\nrrt=\nrrt.problem.") + line); },
+                        {"set.cfg:5: ", key, hint});
+        }
+        expectError([&] { read("[problem]\nscenario = a\n[planner]\nrrt=\nproblem.space = se2\n"); },
+                    {"set.cfg:5: ", "'problem.space'", "NAME.problem.space", "'space' in [problem]"});
+        // OMPL.app's own defaults.
+        read("[problem]\nscenario = a\nthreshold = 1e-6\nobjective.threshold = 0.0\n[planner]\nrrt=\n");
     }
 
     TEST_F(BenchmarkConfigTest, FoldersAndPatternsStandForTheirScenariosInNaturalOrder)

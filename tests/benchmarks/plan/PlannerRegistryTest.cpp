@@ -58,6 +58,34 @@ namespace
         return prepared.planner->params().getParam(parameter)->getValue();
     }
 
+    TEST_F(Planners, AnytimePlannersStopAtAPathShorterThanTheThreshold)
+    {
+        constexpr double LIMIT = 3.0;  // seconds
+        ProblemSettings settings;
+        settings.threshold = 100.0;
+        // Round a wall, so that there is something to improve.
+        const auto behindAWall = [](const ProblemSettings &each)
+        {
+            return problemOf("[14, 1, 0]", "[6, -6], [6.5, -6], [6.5, 5], [6, 5]", each);
+        };
+        const Problem easy = behindAWall(settings), none = behindAWall({});
+        settings.threshold = 1.0;
+        const Problem impossible = behindAWall(settings);
+        for (const char *planner : {"improved_astar", "hybrid_astar"})
+        {
+            const PlannerEntry &entry = registry_.find(planner);
+            const PlannerSettings anytime{{"anytime", "1"}};
+            const PlanRun run = planOnce(easy, entry, anytime, LIMIT, 1);
+            EXPECT_TRUE(run.isSolved()) << planner;
+            EXPECT_LT(run.planningTime, 0.5 * LIMIT) << planner;
+            // Without anytime it is as if there were none.
+            const PlanRun first = planOnce(none, entry, {}, LIMIT, 1), same = planOnce(easy, entry, {}, LIMIT, 1);
+            EXPECT_EQ(first.path.value().length, same.path.value().length) << planner;
+        }
+        EXPECT_GT(planOnce(impossible, registry_.find("improved_astar"), {{"anytime", "1"}}, 0.2, 1).planningTime,
+                  0.15);
+    }
+
     TEST_F(Planners, AreFoundHoweverTheyAreSpelt)
     {
         for (const char *name : {"RRTstar", "rrtstar", "RRT*", "rrt_star", "RRT-Star"})
