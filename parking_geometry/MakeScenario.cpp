@@ -96,8 +96,8 @@ namespace parking
         void requireSimple(const Polygon &polygon, std::size_t number, const std::string &source)
         {
             const std::string which = source + ": polygon " + std::to_string(number);
-            if (polygon.size() < 3)
-                throw Error(which + " has " + std::to_string(polygon.size()) + " corners; a polygon needs at least 3");
+            if (polygon.empty())
+                throw Error(which + " has no corners");
             for (std::size_t i = 0; i < polygon.size(); ++i)
                 if (!polygon[i].allFinite())
                     throw Error(which + ": corner " + std::to_string(i + 1) + " is " + formatNumber(polygon[i].x()) +

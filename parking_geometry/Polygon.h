@@ -8,7 +8,7 @@
 namespace parking
 {
     /** \brief Corners of a simple polygon in metres, closed implicitly. It may have either orientation and be
-        non-convex. */
+        non-convex. Two corners are a segment, one is a point. */
     using Polygon = std::vector<Eigen::Vector2d>;
 
     /** \brief A straight edge of an outline. */

@@ -123,9 +123,8 @@ namespace parking
         set.bounds_ = {bounds.min - centre, bounds.max - centre};
         for (std::size_t i = 0; i < polygons.size(); ++i)
         {
-            if (polygons[i].size() < 3)
-                throw Error("obstacle polygon " + std::to_string(i + 1) + " has " + std::to_string(polygons[i].size()) +
-                            " corners: it needs at least 3");
+            if (polygons[i].empty())
+                throw Error("obstacle polygon " + std::to_string(i + 1) + " has no corners");
             Polygon local;
             for (const Eigen::Vector2d &corner : polygons[i])
             {

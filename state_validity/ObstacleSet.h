@@ -21,10 +21,11 @@ namespace parking
     class ObstacleSet
     {
     public:
-        /** \brief A world of simple polygons of either orientation inside of \e bounds.
+        /** \brief A world of simple polygons of either orientation inside of \e bounds. Two corners are a segment, one
+            is a point.
 
-            Throws parking::Error for polygons with fewer than three corners, coordinates that are not finite, and
-            bounds that are empty or not finite. */
+            Throws parking::Error for polygons without corners, coordinates that are not finite, and bounds that are
+            empty or not finite. */
         static ObstacleSet fromPolygons(const std::vector<Polygon> &polygons, const Box &bounds);
 
         /** \brief A world of square cells; the outside of the map is an obstacle.

@@ -1,4 +1,5 @@
 """The formats of the whole project: YAML scenarios and TPCAP cases. The library reads both."""
+import numpy
 from improved_astar import Scenario
 
 from .scenarios import errors_name, obstacle_polygons
@@ -30,7 +31,8 @@ def yaml_text(scenario, _file):
 
 
 def tpcap_text(scenario, _file):
-    polygons = obstacle_polygons(scenario)
+    # A case has no points and segments: their last corner is written again.
+    polygons = [numpy.vstack([polygon, *[polygon[-1:]] * (3 - len(polygon))]) for polygon in obstacle_polygons(scenario)]
     values = [*scenario.start, *scenario.goals[0], len(polygons), *map(len, polygons)]
     for polygon in polygons:
         values += polygon.ravel().tolist()

@@ -33,7 +33,7 @@ WRONG = [
     (lambda: world(slot=3, goal=None), 'slot must be a Slot'),
     (lambda: world(slot=ia.Slot('parallel', (0, 5, 0), 6, 2.5)), 'both goal and slot'),
     (lambda: world(slot=ia.Slot('parallel', (0, 5, 0), 4, 2.5), goal=None), 'slot: length is 4 m'),
-    (lambda: world([SQUARE, [[0, 0], [1, 0]]]), 'polygon 2 has 2 corners'),
+    (lambda: world([SQUARE, numpy.zeros((0, 2))]), 'polygon 2 has no corners'),
     (lambda: world([[[0, 0], [1, 1], [1, 0], [0, 1]]]), 'polygon 1 crosses itself'),
     (lambda: world([[[0, 0], [1, NAN], [1, 1]]]), 'polygon 1: corner 2'),
     (lambda: world([[0, 0, 1]]), 'polygons[0] must be an array of n rows (x, y); its shape is (3,)'),

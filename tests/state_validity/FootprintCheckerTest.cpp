@@ -219,6 +219,8 @@ TEST(FootprintChecker, SeesObstaclesWithoutArea)
 {
     // All corners at one place, there and back, and on a line: whatever looks at them sees them.
     const std::vector<Polygon> outlines{{{5.0, 1.0}, {5.0, 1.0}, {5.0, 1.0}},
+                                        {{5.0, 1.0}},
+                                        {{5.0, 1.0}, {6.0, 1.5}},
                                         {{5.0, 1.0}, {6.0, 1.5}, {5.0, 1.0}},
                                         {{5.0, 1.0}, {5.5, 1.0}, {6.0, 1.0}}};
     const Vehicle vehicle;

@@ -102,7 +102,7 @@ TEST(ObstacleSet, DropsRepeatedCornersAndTurnsPolygonsCounterClockwise)
 TEST(ObstacleSet, RefusesBadInput)
 {
     EXPECT_THROW(ObstacleSet::fromGrid(OccupancyGrid()), Error);
-    EXPECT_THROW(ObstacleSet::fromPolygons({{{0.0, 0.0}, {1.0, 0.0}}}, BOX), Error);
+    EXPECT_THROW(ObstacleSet::fromPolygons({Polygon()}, BOX), Error);
     EXPECT_THROW(ObstacleSet::fromPolygons({{{0.0, 0.0}, {1.0, 0.0}, {NOT_A_NUMBER, 1.0}}}, BOX), Error);
     EXPECT_THROW(ObstacleSet::fromPolygons({{{0.0, 0.0}, {2.0, 2.0}, {2.0, 0.0}, {0.0, 2.0}}}, BOX), Error)
         << "crosses itself";

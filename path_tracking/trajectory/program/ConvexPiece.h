@@ -8,16 +8,20 @@
 
 namespace parking
 {
-    /** \brief A convex obstacle: its corners and the lines of its sides. */
+    /** \brief A convex obstacle: its corners and the lines of its sides.
+
+        An obstacle that is hardly wider than a line or a point has the sides of its bounding rectangle. */
     struct ConvexPiece
     {
         std::vector<Eigen::Vector2d> corners;  ///< metres, counter-clockwise, no two of them in one place
-        std::vector<Eigen::Vector2d> normals;  ///< outwards, of unit length; side k leads from corner k to the next
-        std::vector<double> offsets;           ///< normals[k] . p = offsets[k] on side k
-        Box box;                               ///< bounding box of the corners
+        /** Outwards, of unit length. Unless the piece is thin, side k leads from corner k to the next. */
+        std::vector<Eigen::Vector2d> normals;
+        std::vector<double> offsets;  ///< normals[k] . p = offsets[k] on side k
+        Box box;                      ///< bounding box of the corners
+        bool isThin{false};           ///< whether its width is at most ten micrometres
 
-        /** \brief Creates a piece from corners in counter-clockwise order. Sides shorter than a micrometre are
-            removed. */
+        /** \brief Creates a piece from corners in counter-clockwise order, at least one. Sides shorter than a
+            micrometre are removed. */
         explicit ConvexPiece(std::vector<Eigen::Vector2d> corners);
     };
 

@@ -80,7 +80,7 @@ namespace parking
             const Box &box = pieces_[i].box;
             const bool near = (box.min.array() <= region.max.array() + reach).all() &&
                               (box.max.array() >= region.min.array() - reach).all();
-            if (pieces_[i].normals.size() > 2 && (near || isKnown_[i] != 0))
+            if (near || isKnown_[i] != 0)
                 candidates_.push_back(i);
         }
         for (const GuessedCheckpoint &point : checkpoints)

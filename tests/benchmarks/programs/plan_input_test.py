@@ -35,7 +35,7 @@ class Files(ProgramTest):
         poses = 'start: [0, 0, 0]\ngoal: [9, 0, 0]\n'
         for name, content, part in (
                 ('empty.yaml', '', 'empty'), ('torn.yaml', poses + 'polygons:\n  - [[2, 2], [3', 'torn.yaml:'),
-                ('two.yaml', poses + 'polygons:\n  - [[2, 2], [3, 3]]\n', '2 corners'),
+                ('two.yaml', poses + 'polygons:\n  - []\n', 'no corners'),
                 ('nan.yaml', poses.replace('9', '.nan') + polygons, 'finite'),
                 ('short.yaml', poses.replace('9, ', '') + polygons, '3 numbers'),
                 ('key.yaml', poses.replace('goal', 'gaol') + polygons, "did you mean 'goal'"),

@@ -315,7 +315,7 @@ TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
     expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, .nan, 0.5]"), {"example.yaml:4", "start holds '.nan'"});
     expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, nan, 0.5]"), {"example.yaml:4", "start holds 'nan'"});
     expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, 20m, 0.5]"), {"example.yaml:4", "'20m'"});
-    expectYamlError(with(SCENARIO, ", [13, 27]]", "]"), {"example.yaml:7", "polygon 1 has 2 corners", "at least 3"});
+    expectYamlError(with(SCENARIO, ", [13, 27]]", "]\n  - []"), {"example.yaml:8", "polygon 2 has no corners"});
     expectYamlError(with(SCENARIO, "[13, 27]", "[13]"), {"example.yaml:7", "a corner of polygon 1 has 1 entries"});
     expectYamlError(with(SCENARIO, "    - [22, 12]\n", "    - 22\n"), {"example.yaml:10", "polygon 2"});
     expectYamlError(with(SCENARIO, "[13, 27]", "[13, 2e8]"), {"example.yaml:7: ", "obstacle 1", "m from the start"});

@@ -76,6 +76,39 @@ namespace parking
             EXPECT_EQ(optimizer.optimizeBest({swing(1.0, 0.0), swing(-1.0, 0.0)}).rounds, alone + 1);
         }
 
+        TEST(TrajectoryOptimizer, PassesObstaclesWithoutWidthAsQuicklyAsThinOnes)
+        {
+            // Between two places 2.4 m apart, beside the path.
+            const Eigen::Vector2d a(2.0, 1.25), b(4.4, 1.25), middle(3.2, 1.25), corner(4.4, 3.0);
+            const auto quad = [&](double width) -> Polygon
+            {
+                const Eigen::Vector2d across(0.0, width);
+                return {a, b, b + across, a + across};
+            };
+            const Path path{{}, {{0.0, 3.0}, {-0.15, 4.0}, {0.15, 4.0}, {0.0, 2.0}}};
+            const OptimizedTrajectory thin = TrajectoryOptimizer(checkerOf({quad(1e-3)})).optimize(path);
+            ASSERT_FALSE(thin.fallback);
+            const std::vector<std::vector<Polygon>> others = {
+                {{a, b}},           {{a, b, b}},  {{a, a, b}},  {{a, b, a}},  {{a, middle, b}},
+                {quad(1e-9)},       {quad(1e-6)}, {quad(5e-6)}, {quad(2e-5)}, {{a, b, b + Eigen::Vector2d(0.0, 1e-9)}},
+                {{a, b, corner, b}}};
+            for (std::size_t i = 0; i < others.size(); ++i)
+            {
+                const FootprintChecker checker = checkerOf(others[i]);
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path);
+                EXPECT_FALSE(found.fallback) << i;
+                EXPECT_NEAR(found.motion.duration(), thin.motion.duration(), 0.01 * thin.motion.duration()) << i;
+                EXPECT_TRUE(collisionsOf(found.motion, checker, 1).empty()) << i;
+            }
+            // A point, and what is one by its corners.
+            for (const Polygon &point : {Polygon{b}, Polygon{b, b, b}, Polygon{b, b + Eigen::Vector2d(1e-7, 1e-7)}})
+            {
+                const OptimizedTrajectory found = TrajectoryOptimizer(checkerOf({point})).optimize(path);
+                EXPECT_FALSE(found.fallback) << point.size();
+                EXPECT_LE(found.motion.duration(), 1.001 * thin.motion.duration()) << point.size();
+            }
+        }
+
         TEST(TrajectoryOptimizer, HoldsEveryLimitTouchesNothingAndIsNeverSlower)
         {
             std::size_t optimised = 0, all = 0;
