@@ -3,6 +3,7 @@
 #include "parking_geometry/text/Text.h"
 #include "python/src/Bindings.h"
 #include "python/src/Handles.h"
+#include "python/src/Pickling.h"
 #include "python/src/Signals.h"
 #include "python/src/Values.h"
 
@@ -243,6 +244,7 @@ It is True if the path reaches a goal exactly. Arrays are created on first use a
             .def_property_readonly(
                 "parameters", [](const PlanHandle &self) { return toPython(self.parameters()); },
                 "All parameters of the planner, as a dict.")
+            .def(py::pickle([](const PlanHandle &self) { return stateOf(self); }, &planOf))
             .def("__bool__", [](const PlanHandle &self) { return self.plan().outcome == search::PlanOutcome::Solved; })
             .def("__repr__",
                  [](const PlanHandle &self)

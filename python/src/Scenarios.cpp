@@ -5,6 +5,7 @@
 #include "parking_geometry/text/NearestName.h"
 #include "python/src/Bindings.h"
 #include "python/src/Handles.h"
+#include "python/src/Pickling.h"
 #include "python/src/Signals.h"
 #include "python/src/Values.h"
 
@@ -295,6 +296,8 @@ rear axle. A scenario is immutable; replace() returns a modified copy.)";
             .def("replace", &changed, py::kw_only(), py::arg("start") = none, py::arg("goal") = none,
                  py::arg("slot") = none, py::arg("vehicle") = none,
                  "Returns a copy with another start, goal, slot or car.")
+            .def(py::pickle([](const ScenarioHandle &self) { return stateOf(self.scenario()); },
+                            [](const py::tuple &state) { return std::make_shared<ScenarioHandle>(scenarioOf(state)); }))
             .def(
                 "is_free",
                 [](const ScenarioHandle &self, const py::object &poses)

@@ -5,6 +5,7 @@
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/NearestName.h"
 #include "python/src/Bindings.h"
+#include "python/src/Pickling.h"
 #include "python/src/Values.h"
 
 #include <pybind11/stl.h>
@@ -140,6 +141,7 @@ max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_
             },
             py::arg("pose"),
             "Returns the corners of the body at a pose, counter-clockwise from rear right, as a 4 x 2 array.");
+        vehicle.def(py::pickle([](const Vehicle &self) { return stateOf(self); }, &vehicleOf));
         vehicle.def("__repr__", [](const Vehicle &self) { return "Vehicle('" + self.name + "')"; });
 
         py::class_<ParkingSlot>(module, "Slot", R"(A parking slot: a rectangle with a pose at its centre.
@@ -182,6 +184,7 @@ direction of travel in the adjacent lane. See docs/scenarios.md for the fields.)
                     return goals;
                 },
                 py::arg("vehicle"), "Returns the poses (x, y, yaw) of a car parked in the slot, preferred first.")
+            .def(py::pickle([](const ParkingSlot &self) { return stateOf(self); }, &slotOf))
             .def("__repr__", [](const ParkingSlot &self) { return "Slot('" + nameOf(self.kind, KINDS) + "')"; });
     }
 }  // namespace parking::python

@@ -1,7 +1,9 @@
 """Planning from Python: the same answers as in C++, arrays of the right shape, Ctrl-C, threads."""
 import json
 import math
+import multiprocessing
 import os
+import pickle
 import signal
 import statistics
 import subprocess
@@ -25,6 +27,54 @@ def scenario(name):
 
 def behind_the_wall():
     return ia.Scenario.from_polygons(WALL, (-10, -5, 0), (10, -5, 0))
+
+
+def all_of(world):
+    """The values of a Scenario, to be compared."""
+    return (world.name, repr(world.vehicle), world.vehicle.wheelbase, world.start, world.goals, repr(world.slot),
+            [polygon.tolist() for polygon in world.polygons], world.files, world.unknown_is_occupied,
+            None if world.grid is None else world.grid.tolist())
+
+
+@pytest.mark.parametrize('name', ['perpendicular', 'underground_garage'])
+def test_scenarios_and_results_go_through_pickle(name):
+    world = scenario(name)
+    copy = pickle.loads(pickle.dumps(world))
+    assert all_of(copy) == all_of(world)
+    result = ia.plan(world, time_limit=math.inf)
+    same = pickle.loads(pickle.dumps(result))
+    assert all_of(same.scenario) == all_of(world)
+    assert (same.status, same.reason, same.cost, same.bound, same.goal, same.parameters) == (
+        result.status, result.reason, result.cost, result.bound, result.goal, result.parameters)
+    assert (same.path == result.path).all() and same.clearance == result.clearance
+    for key in ('expanded', 'state_checks', 'exact_checks', 'planning_time'):
+        assert same.statistics[key] == result.statistics[key] > 0
+    # A copy plans what the original plans.
+    assert (ia.plan(copy, time_limit=math.inf).path == result.path).all()
+    slot = pickle.loads(pickle.dumps(ia.Slot('angled', (1, 2, 0.5), 6, 3, angle=0.7, depth=0.2)))
+    assert (slot.kind, slot.pose, slot.angle, slot.depth) == ('angled', (1, 2, 0.5), 0.7, 0.2)
+
+
+def plan_in_a_process(world):
+    return ia.plan(world, time_limit=math.inf)
+
+
+def test_processes_plan_side_by_side():
+    worlds = [behind_the_wall(), scenario('perpendicular')]
+    with multiprocessing.get_context('spawn').Pool(2) as pool:
+        for world, result in zip(worlds, pool.map(plan_in_a_process, worlds)):
+            assert result and (result.path == plan_in_a_process(world).path).all()
+
+
+def test_warnings_of_maps_are_warnings_of_python(tmp_path):
+    (tmp_path / 'map.pgm').write_bytes(b'P5\r\n200 200\r\n255\r\n' + b'\xfe' * 30000 + b'\xcd' * 10000)
+    text = 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.25\n'
+    (tmp_path / 'map.yaml').write_text(text, encoding='utf-8')
+    (tmp_path / 'world.yaml').write_text('map: map.yaml\nstart: [5, 9, 0]\ngoal: [12, 9, 0]\n', encoding='utf-8')
+    with pytest.warns(UserWarning, match='25 % of the cells'):
+        ia.Scenario.read(tmp_path / 'world.yaml')
+    with pytest.warns(UserWarning, match='free_thresh 0.25'):
+        ia.Scenario.from_grid(tmp_path / 'map.yaml', (5, 9, 0), (12, 9, 0))
 
 
 def test_neither_ompl_nor_fcl_are_in_the_process():

@@ -217,6 +217,8 @@ TEST_F(ReaderTest, NamesTheCommandForFormatsOfOthers)
     for (const std::string begin : {"<svg>", "\n <?xml version=\"1.0\"?><svg>", "\xEF\xBB\xBF<svg>"})
         expectError([&] { read(begin, "scene.svg"); },
                     {"scene.svg: is an SVG file", "scene.yaml --start X,Y,YAW --goal X,Y,YAW"});
+    for (const std::string begin : {"<?xml version=\"1.0\"?>\n<osm version=\"0.6\">", "<OpenDRIVE>", "<commonRoad/>"})
+        expectError([&] { read(begin, "lot.xodr"); }, {"lot.xodr: is XML", "YAML scenarios", ".csv", ".svg", ".mat"});
 }
 
 TEST_F(YamlReader, ReadsPolygonsVehicleStartAndGoal)
