@@ -21,6 +21,11 @@ namespace parking
         constexpr double CORNER = 1.5;
         // Rounding of rotated coordinates within a few kilometres of the frame.
         constexpr double ROUNDING = 1e-11;
+        // Bodies closer than this touch an obstacle. The rounding of coordinates is smaller up to 100 km from the
+        // origin.
+        constexpr double CONTACT = 0.5 * FootprintChecker::CONTACT_BAND;
+        // Circles with this clearance imply a separation above CONTACT_BAND, so all tiers agree on contact.
+        constexpr double CLEAR = CORNER * FootprintChecker::CONTACT_BAND;
 
         double circumradiusOf(const Vehicle &vehicle, double margin)
         {
@@ -53,7 +58,7 @@ namespace parking
         centreOffset_(vehicle.centreOffset()),
         halfLength_(0.5 * vehicle.length() + margin),
         halfWidth_(0.5 * vehicle.width + margin),
-        circumradius_(circumradiusOf(vehicle, margin) + ROUNDING),
+        circumradius_(circumradiusOf(vehicle, margin) + CLEAR),
         inradius_(std::min(halfLength_, halfWidth_) - ROUNDING),
         farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
                              halfWidth_)),
@@ -71,7 +76,7 @@ namespace parking
         for (std::size_t i = 0; i < COVERING_CIRCLES; ++i)
         {
             const double offset = -halfLength_ + half * static_cast<double>(2 * i + 1);
-            covering_.push_back({offset, std::hypot(half, halfWidth_) + ROUNDING});
+            covering_.push_back({offset, std::hypot(half, halfWidth_) + CLEAR});
             // Near the bumpers the nearest side of the body is the bumper.
             inscribed_.push_back({offset, std::min(halfWidth_, halfLength_ - std::abs(offset)) - ROUNDING});
         }
@@ -98,11 +103,13 @@ namespace parking
         box.y = axleY + box.sine * centreOffset_;
     }
 
-    /** For a body within CONTACT_BAND of contact. */
+    /** Whether a body within CONTACT_BAND of an outline touches an obstacle: poses and sweeps use the same rule. */
     bool FootprintChecker::touches(const OrientedBox &box) const
     {
-        if (!makeContactTest_)
+        if (edges_.separation(box, CONTACT_BAND) <= CONTACT || isInsideObstacle(box))
             return true;
+        if (!makeContactTest_)
+            return false;
         std::call_once(contactOnce_, [this] { contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_); });
         return contactTest_(box);
     }
@@ -307,9 +314,9 @@ namespace parking
             return start;
         }
         ++counts.byEdges;
-        const double separation = edges_.separation(box, 2.0 * tolerance);
-        start.enlargement =
-            separation <= CONTACT_BAND || isInsideObstacle(box) ? -1.0 : std::min(tolerance, separation / CORNER);
+        const double separation = edges_.separation(box, 2.0 * std::max(tolerance, CONTACT_BAND));
+        const bool collides = separation <= CONTACT_BAND ? touches(box) : isInsideObstacle(box);
+        start.enlargement = collides ? -1.0 : std::min(tolerance, separation / CORNER);
         return start;
     }
 

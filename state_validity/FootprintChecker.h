@@ -38,8 +38,8 @@ namespace parking
         2. The separation of the body from the edges near it is computed (separating axes). If it is positive, the body
            crosses no outline. It is then wholly outside or wholly inside of each obstacle, which the field at its
            centre determines.
-        3. Within CONTACT_BAND of contact, where rounding matters, the contact test decides. Without a contact test the
-           body counts as touching.
+        3. Within CONTACT_BAND of contact, where rounding matters: up to half the band the body touches, above it the
+           contact test decides if there is one. Sweeps use the same rule, so a car can leave every free pose.
 
         Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. The class does not
         depend on OMPL and FCL. FclFootprintChecker is its interface to OMPL, fclContactTest() a contact test. */

@@ -44,8 +44,8 @@ namespace parking
         Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown. Both keys
         are required. The reader supports `negate`, `mode` and an origin with yaw as nav2 does.
 
-        Unlike map servers, the reader treats a pixel that is not opaque as unknown in every mode. The trinary mode of map
-        servers averages alpha with the colours. This turns the usual grey for unknown (205) into free in every image
+        Unlike map servers, the reader treats a pixel that is not opaque as unknown in every mode. The trinary mode of
+       map servers averages alpha with the colours. This turns the usual grey for unknown (205) into free in every image
         with an alpha channel.
 
         \param files unless it is null, the names of both files are appended to it

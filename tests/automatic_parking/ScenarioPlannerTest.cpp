@@ -74,6 +74,23 @@ namespace
         EXPECT_GT(narrow.plan(grid, limits).path.length(), 45.0);
     }
 
+    TEST(ScenarioPlanner, ReportsAtOnceThatStartOrGoalTouches)
+    {
+        // A wall at the rear bumper, at no distance or almost none.
+        const Vehicle vehicle;
+        for (const double distance : {0.0, 1e-12, 4e-10})
+            for (const bool isStart : {true, false})
+            {
+                const double rear = (isStart ? 0.0 : 12.0) - vehicle.rearOverhang - distance;
+                Scenario scenario;
+                scenario.goals = {{12.0, 3.0, 0.0}};
+                const double y = isStart ? 0.0 : 3.0;
+                scenario.polygons = {{{rear - 1.0, y - 1.0}, {rear, y - 1.0}, {rear, y + 1.0}, {rear - 1.0, y + 1.0}}};
+                const ScenarioPlan plan = ScenarioPlanner(makeScenario(scenario, "contact")).plan({}, {});
+                EXPECT_EQ(plan.outcome, isStart ? PlanOutcome::InvalidStart : PlanOutcome::InvalidGoal) << distance;
+            }
+    }
+
     TEST(ScenarioPlanner, EndsWhenItShall)
     {
         const ScenarioPlanner planner(bundled("narrow_parallel"));

@@ -267,7 +267,7 @@ TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)
     const Vehicle vehicle;
     const double front = vehicle.wheelbase + vehicle.frontOverhang;
     for (const bool answer : {false, true})
-        for (const double gap : {-1e-7, -1e-10, 0.0, 1e-10, 1e-7})
+        for (const double gap : {-1e-7, -1e-10, 0.0, 1e-12, 4e-10, 6e-10, 9e-10, 1e-7})
         {
             int made = 0, asked = 0;
             const ContactTestMaker maker = [&](const ObstacleSet &, double halfLength, double halfWidth)
@@ -286,13 +286,18 @@ TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)
             const FootprintChecker checker(obstacles, vehicle, 0.0, maker), careful(obstacles, vehicle);
             EXPECT_EQ(made, 0) << "made before a pose needed it";
             const bool near = std::abs(gap) < FootprintChecker::CONTACT_BAND;
+            const bool apart = gap > 0.5 * FootprintChecker::CONTACT_BAND, undecided = near && apart;
+            const bool expected = apart && !(undecided && answer);
             CheckCounts counts;
             for (int i = 0; i < 3; ++i)
-                EXPECT_EQ(checker.isFree({}, counts), near ? !answer : gap > 0.0) << gap;
-            EXPECT_EQ(made, near ? 1 : 0) << gap;
-            EXPECT_EQ(asked, near ? 3 : 0) << gap;
+                EXPECT_EQ(checker.isFree({}, counts), expected) << gap;
+            EXPECT_EQ(made, undecided ? 1 : 0) << gap;
+            EXPECT_EQ(asked, undecided ? 3 : 0) << gap;
             EXPECT_EQ(counts.byContactTest, near ? 3u : 0u) << gap;
-            EXPECT_EQ(careful.isFree({}), !near && gap > 0.0) << "touches when nothing decides, " << gap;
+            EXPECT_EQ(careful.isFree({}), apart) << gap;
+            // A car can leave a pose if and only if the pose is free.
+            EXPECT_EQ(checker.freeLength({}, 0.0, -1.0), expected ? 1.0 : 0.0) << gap;
+            EXPECT_EQ(careful.freeLength({}, 0.0, -1.0), apart ? 1.0 : 0.0) << gap;
         }
 }
 
