@@ -13,7 +13,9 @@ namespace parking
         // Nearer than these parts of the tolerance nothing is proven, on the way and at an end.
         constexpr double CLOSEST = 0.1, CLOSEST_END = 1e-4;
         // Questions nearer than the tolerance, which prove little each.
-        constexpr int MOST_TIGHT = 4096;
+        // Metres of a proven clearance that are not used, so that poses at its end are not in contact.
+        constexpr double APART = 1.5 * FootprintChecker::CONTACT_BAND;
+        constexpr int MAX_TIGHT_CHECKS = 4096;
     }  // namespace
 
     double ClearanceProof::toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const
@@ -52,9 +54,9 @@ namespace parking
             const auto [begin, end] = open[--count];
             const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * length;
             const Pose pose = at(middle);
-            double clearance = footprint_.clearance(pose, half, counts);
+            double clearance = footprint_.clearance(pose, half + APART, counts) - APART;
             if (clearance < half && clearance < tolerance_)
-                clearance = footprint_.exactClearance(pose) * (1.0 - 1e-9);
+                clearance = footprint_.exactClearance(pose) * (1.0 - 1e-9) - APART;
             if (clearance >= half)
             {
                 proven = end;
@@ -63,7 +65,7 @@ namespace parking
             proven = begin;
             if (clearance > 0.0 && clearance < tolerance && tolerance == tolerance_)
                 tolerance = toleranceBetween(at(0.0), at(1.0), counts);
-            if (clearance < tolerance_ && ++tight > MOST_TIGHT)
+            if (clearance < tolerance_ && ++tight > MAX_TIGHT_CHECKS)
                 break;
             if (clearance < tolerance)
             {

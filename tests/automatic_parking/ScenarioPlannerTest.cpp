@@ -86,7 +86,9 @@ namespace
                 scenario.goals = {{12.0, 3.0, 0.0}};
                 const double y = isStart ? 0.0 : 3.0;
                 scenario.polygons = {{{rear - 1.0, y - 1.0}, {rear, y - 1.0}, {rear, y + 1.0}, {rear - 1.0, y + 1.0}}};
-                const ScenarioPlan plan = ScenarioPlanner(makeScenario(scenario, "contact")).plan({}, {});
+                PlannerParameters parameters;
+                parameters.approximate = false;
+                const ScenarioPlan plan = ScenarioPlanner(makeScenario(scenario, "contact")).plan(parameters, {});
                 EXPECT_EQ(plan.outcome, isStart ? PlanOutcome::InvalidStart : PlanOutcome::InvalidGoal) << distance;
             }
     }

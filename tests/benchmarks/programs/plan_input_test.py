@@ -53,10 +53,10 @@ class Files(ProgramTest):
                 ('truncated', MAP, pgm(100, 100, b'\xfe' * 9999), 'truncated'),
                 ('other size', MAP, pgm(100, 100, b'\xfe' * 12000), '100 x 100'), ('none', MAP, None, 'No such file'),
                 ('no pixels', MAP, pgm(0, 0), '0 x 0'), ('no image', MAP, b'GIF89a', 'map.pgm'),
-                ('resolution 0', MAP.replace('0.1', '0'), pgm(100, 100), 'resolution'),
-                ('negative resolution', MAP.replace('0.1', '-0.1'), pgm(100, 100), 'resolution'),
-                ('resolution of planets', MAP.replace('0.1', '1e300'), pgm(100, 100), '100000 m'),
-                ('resolution of atoms', MAP.replace('0.1', '1e-300'), pgm(100, 100), 'outside the map'),
+                ('resolution 0', MAP.replace(': 0.1\n', ': 0\n'), pgm(100, 100), 'resolution'),
+                ('negative resolution', MAP.replace(': 0.1\n', ': -0.1\n'), pgm(100, 100), 'resolution'),
+                ('resolution of planets', MAP.replace(': 0.1\n', ': 1e300\n'), pgm(100, 100), '100000 m'),
+                ('resolution of atoms', MAP.replace(': 0.1\n', ': 1e-300\n'), pgm(100, 100), 'outside the map'),
                 ('gigantic', MAP, pgm(100000000, 100000000, b''), 'map.pgm')):
             with self.subTest(title):
                 self.write('map.yaml', yaml)
