@@ -84,8 +84,8 @@ def main(program, scenarios):
         poor = os.path.join(folder, 'poor')
         done = subprocess.run([program, config, '--output', poor, '--runs', '1', '--quiet'], capture_output=True, text=True,
                               env={**os.environ, 'PATH': os.path.dirname(stream.name) + ':' + os.environ['PATH']}, check=False)
-        if (done.returncode, done.stderr) != (0, f'parking_benchmark: {poor}/report.html: is not made: make_report: Python '
-                                              'packages are missing\n'):
+        if (done.returncode, done.stderr) != (0, f'parking_benchmark: {poor}/report.html: is not written: make_report: '
+                                              'Python packages are missing\n'):
             faults.append(f'without the packages: status {done.returncode}, {done.stderr}')
         if 'report.html' in os.listdir(poor) or not {'benchmark.db', 'summary.csv', 'pictures'} <= set(os.listdir(poor)):
             faults.append(f'without the packages there are {os.listdir(poor)}')

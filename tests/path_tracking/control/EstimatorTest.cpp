@@ -57,6 +57,46 @@ namespace parking::test
             return {0.8 * std::sin(0.9 * t + 0.3), 0.5 * std::sin(0.8 * t), false};
         }
 
+        // Frames are arbitrary: estimates turn with the measurements, also across the jump of the heading at pi.
+        TEST(PoseEstimator, DoesNotDependOnTheFrame)
+        {
+            Disturbances disturbances;
+            disturbances.speedBias = -0.05;
+            disturbances.steeringOffset = 0.02;
+            disturbances.positionNoise = 0.02;
+            disturbances.yawNoise = 0.01;
+            const Vehicle vehicle;
+            for (const double angle : {0.7, 2.0, PI})
+            {
+                const Pose frame{3.0, -2.0, angle};
+                PoseEstimator here(vehicle.wheelbase, {}), there(vehicle.wheelbase, {});
+                const auto turned = [&frame](Measurement measurement)
+                {
+                    measurement.pose = compose(frame, measurement.pose);
+                    return measurement;
+                };
+                bool isStarted = false;
+                drive(disturbances, 200, waves,
+                      [&](const Command & /*before*/, const Command & /*command*/, const Measurement &last,
+                          const Measurement &now, const Plant & /*plant*/)
+                      {
+                          if (!isStarted)
+                          {
+                              here.start(last);
+                              there.start(turned(last));
+                          }
+                          isStarted = true;
+                          here.predict(PERIOD, now.speed, now.steering);
+                          there.predict(PERIOD, now.speed, now.steering);
+                          here.correct(now.pose);
+                          there.correct(turned(now).pose);
+                          EXPECT_TRUE(isSamePose(compose(frame, here.pose()), there.pose(), 1e-9)) << angle;
+                      });
+                EXPECT_NEAR(here.speedScale(), there.speedScale(), 1e-9);
+                EXPECT_NEAR(here.steeringOffset(), there.steeringOffset(), 1e-9);
+            }
+        }
+
         TEST(ActuatorLag, LearnsBothLags)
         {
             for (const double lag : {0.0, 0.05, 0.1, 0.3})
