@@ -57,7 +57,7 @@ class Amount:
     checks: list   # options of the micro-benchmarks
 
 
-FULL = Amount(1.0, {'bundled': 3, 'random': 1, 'tpcap': 2}, 4, 3, 5, 280, ['--benchmark_min_time=0.2'])
+FULL = Amount(0.5, {'bundled': 2, 'random': 1, 'tpcap': 1}, 4, 2, 3, 140, ['--benchmark_min_time=0.1'])
 QUICK = Amount(0.2, {'bundled': 1, 'random': 1, 'tpcap': 1}, 1, 1, 3, 28,
                ['--benchmark_min_time=0.02', '--benchmark_filter=^(stateCheck|motionCheck|sweptArc|distanceField|checkerOf)'])
 

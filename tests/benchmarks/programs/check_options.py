@@ -17,7 +17,7 @@ PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_que
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
            'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/results', 'scripts/soak', 'scripts/test',
            'scripts/try-in-bare-root',
-           'benchmarks/report/make_report', 'benchmarks/paper/make_maps']
+           'benchmarks/report/make_report', 'benchmarks/results/make_results', 'benchmarks/paper/make_maps']
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
 
 
