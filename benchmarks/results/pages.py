@@ -334,14 +334,14 @@ def introduction(evidence):
     return [each for each in text if each]
 
 
-COMPARED = ['## Planners compared', f"""`{OURS}` beside OMPL's planners and others, with the same space, footprint checks and
-recheck of every path. `hybrid_astar` is its core, from the start and with its improvements off; `textbook_hybrid_astar` shares
+COMPARED = ['## Planners compared', f"""All planners use the same space, footprint checks and recheck of every path.
+`hybrid_astar` is the core of `{OURS}`, from the start and without its improvements; `textbook_hybrid_astar` shares
 only the checks. Times and limits are processor time.
 
 - *Solved*: runs with a valid path to the goal, of all runs.
 - *In common*: problems that the planner and `{OURS}` both solve in more than half of their runs. *Ratios* are medians
   over these of the planner's median over ours, for the time to the first path and for the length of the last.
-- *Cusps* (changes of direction) and least *clearance*: medians over the solved runs, which for some planners are the easy ones.
+- *Cusps* (changes of direction) and least *clearance*: medians over the solved runs.
 - *First path* and *99 %*: quantiles of the time to the first path over all runs; an unsolved run takes ∞."""]
 
 
