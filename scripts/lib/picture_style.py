@@ -26,7 +26,7 @@ DARK = {PAPER: '#14181d', PANEL: '#191e24', GRID: '#272e36', FRAME: '#3b4550', Z
 def dark_rules():
     """CSS that turns the attributes fill and stroke of the light colours into the dark ones."""
     rules = ''.join(f'[{key}="{light}"]{{{key}:{dark}}}' for light, dark in DARK.items() for key in ('fill', 'stroke'))
-    return f'@media (prefers-color-scheme:dark){{{rules}}}'
+    return f'@media (prefers-color-scheme: dark){{{rules}}}'
 
 
 def themed(svg):
@@ -63,7 +63,7 @@ def round_ticks(low, high, most):
     """At most about that many multiples of 1, 2 or 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10((high - low) / most))
     step = next(factor * power for factor in (1, 2, 5, 10) if (high - low) / (factor * power) <= most * (1 + 1e-9))
-    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
 
 
 def decade_ticks(low, high):

@@ -102,9 +102,9 @@ class Pages(made_results.FolderTest):
             self.assertIn(f'results/{name}-bundled.svg', made['docs/results.md'])
 
     def test_ticks_are_round(self):
-        self.assertEqual(round_ticks(1.0, 2.0), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])
-        self.assertEqual(round_ticks(0.0, 1.0), [0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
-        self.assertEqual(round_ticks(3.0, 47.0), [10.0, 20.0, 30.0, 40.0])
+        self.assertEqual(round_ticks(1.0, 2.0, 6), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])
+        self.assertEqual(round_ticks(0.0, 1.0, 6), [0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
+        self.assertEqual(round_ticks(3.0, 47.0, 6), [10.0, 20.0, 30.0, 40.0])
         self.assertEqual([time_label(10.0 ** k) for k in range(-4, 3)],
                          ['100 µs', '1 ms', '10 ms', '100 ms', '1 s', '10 s', '100 s'])
         self.assertEqual(step_points([(1, 0.0), (2, 0.5)], 3), [(1, 0.0), (2, 0.0), (2, 0.5), (3, 0.5)])
