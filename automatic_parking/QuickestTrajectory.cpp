@@ -14,8 +14,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
-        constexpr double SAME_LENGTH = 1e-3;      // metres by which equal paths differ
+        constexpr double SAME_LENGTH = 1e-3;  // metres by which equal paths differ
 
         /** Costs in metres of a change of direction and of steering to full lock, where time counts. */
         constexpr double GEAR_CHANGE = 10.0, STEERING_CHANGE = 0.1;
@@ -108,7 +107,7 @@ namespace parking
                                        const QuickestTrajectoryOptions &options,
                                        const std::function<bool()> &interrupted)
     {
-        FootprintEnvironment environment(checker, bounds, SWEEP_TOLERANCE);
+        FootprintEnvironment environment(checker, bounds, FootprintEnvironment::TOLERANCE);
         std::vector<Path> found;
         std::uint64_t expanded = 0;
         for (const SearchSetting &setting : SETTINGS)

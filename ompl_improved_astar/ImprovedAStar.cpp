@@ -51,11 +51,8 @@ namespace ompl::geometric
         using parking::search::PathPlanner;
         using parking::search::PlanOutcome;
 
-        // Between states asked for along a motion with a checker that knows states only, in turning radii.
-        constexpr double CHECK_STEP = 0.02;
-        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
-        constexpr double FARTHEST_DUBINS = 1e7;   // coordinates in turning radii
-        constexpr double SAME_POSE = 1e-12;       // metres and radians
+        constexpr double FARTHEST_DUBINS = 1e7;  // coordinates in turning radii
+        constexpr double SAME_POSE = 1e-12;      // metres and radians
 
         constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
         constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
@@ -385,12 +382,12 @@ namespace ompl::geometric
         const auto *circle = exactly<parking::CircleValidityChecker>(query_->checker);
         const auto *footprint = exactly<parking::FclFootprintChecker>(query_->checker);
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
-            si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
+            si_, std::min(parking::CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
         query_->stateEnvironment->setEnding(
             [this](std::vector<Pose> &poses)
             {
-                // Parts of paths are asked for, too, which end elsewhere.
+                // Parts of paths end elsewhere.
                 if (parking::isAtGoal(poses.back(), query_->goals, query_->turningRadius()))
                     endAtGoal(poses);
             });
@@ -413,9 +410,10 @@ namespace ompl::geometric
                 query_->space->kind() == parking::SpaceKind::Dubins && farthest > FARTHEST_DUBINS * radius;
             const bool swept = !query_->isPlain() && !mayDeviate && parameters_.steeringAngles == 3 &&
                                validator != nullptr && &validator->footprint() == &footprint->footprint() &&
-                               validator->tolerance() <= SWEEP_TOLERANCE;
+                               validator->tolerance() <= parking::FootprintEnvironment::TOLERANCE;
             query_->footprintEnvironment = std::make_unique<parking::FootprintEnvironment>(
-                footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
+                footprint->footprint(), bounds, parking::FootprintEnvironment::TOLERANCE,
+                swept ? nullptr : query_->stateEnvironment.get());
             environment = query_->footprintEnvironment.get();
         }
         // Those of the space, which may be wider than the vehicle's.

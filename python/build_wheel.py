@@ -1,5 +1,5 @@
-"""Builds the package with scikit-build-core; a wheel is then made self-contained: libraries that a system may lack go
-into it (libyaml-cpp, libpng), and its name says for which systems it is."""
+"""Builds the package with scikit-build-core and makes wheels self-contained: they contain libyaml-cpp and libpng, and
+their names state the supported systems."""
 import pathlib
 import shutil
 import subprocess
@@ -15,7 +15,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     try:
         import auditwheel  # noqa: F401
     except ImportError:
-        return name  # a build for this system alone, as a distribution makes it
+        return name  # a build for this system only
     if not sys.platform.startswith('linux'):
         return name
     made = pathlib.Path(wheel_directory, name)

@@ -16,9 +16,8 @@ namespace parking
 {
     namespace
     {
-        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
-        constexpr double SAMPLING = 0.1;          // metres between states
-        constexpr double SAME = 1e-4;             // metres and radians: rounding of long paths
+        constexpr double SAMPLING = 0.1;  // metres between states
+        constexpr double SAME = 1e-4;     // metres and radians: rounding of long paths
 
         /** The world of the grid models: the paper's circle, which has no heading. */
         class CircleEnvironment final : public search::MotionEnvironment
@@ -119,7 +118,7 @@ namespace parking
     {
         if (search::turnsOnTheSpot(parameters.motionModel))
             return std::make_unique<CircleEnvironment>(circle(), scenario_.bounds);
-        return std::make_unique<FootprintEnvironment>(footprint_, scenario_.bounds, SWEEP_TOLERANCE);
+        return std::make_unique<FootprintEnvironment>(footprint_, scenario_.bounds, FootprintEnvironment::TOLERANCE);
     }
 
     ScenarioPlan ScenarioPlanner::plan(const PlannerParameters &parameters, const PlanLimits &limits) const

@@ -197,7 +197,7 @@ namespace parking
             };
         }
 
-        /** The same for a reader that does not report the key. */
+        /** Adapts a reader whose messages do not name the key. */
         template <class Read>
         auto ofValue(Read read)
         {

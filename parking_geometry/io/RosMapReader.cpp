@@ -76,7 +76,7 @@ namespace parking
             return value;
         }
 
-        /** The grey that map savers write for cells of which nothing was seen. */
+        /** Whether a pixel has the grey that map savers write for unknown cells. */
         bool isUnknownOfMapSavers(std::uint32_t brightness, std::uint32_t white)
         {
             return brightness != NOT_OPAQUE && std::uint64_t(255) * brightness == std::uint64_t(205) * white;

@@ -40,8 +40,8 @@ namespace parking
             if (!isMatlab && trimmed(text).front() != '<')
                 return;
             if (!isMatlab && text.find("<svg") == std::string::npos && text.find(":svg") == std::string::npos)
-                throw Error(file + ": is XML, which is not read; read are YAML scenarios and TPCAP cases (.csv), and " +
-                            "parking_convert makes scenarios of Bench-MR scenes (.svg) and CommonParking cases (.mat)");
+                throw Error(file + ": is XML; supported are YAML scenarios and TPCAP cases (.csv), and " +
+                            "parking_convert converts Bench-MR scenes (.svg) and CommonParking cases (.mat)");
             throw Error(file + ": is " + (isMatlab ? "a MATLAB" : "an SVG") +
                         " file; make a scenario of it first: parking_convert " + file + " " +
                         std::filesystem::path(file).replace_extension(".yaml").string() +

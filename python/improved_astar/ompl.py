@@ -7,7 +7,7 @@
     if setup.solve(1.0):
         print(setup.getSolutionPath().printAsMatrix())
 
-Names are OMPL's. States are poses (x, y, yaw) of the middle of the rear axle.
+Names are OMPL's. States are poses (x, y, yaw) of the rear axle's midpoint.
 """
 import collections.abc
 import functools
@@ -30,16 +30,16 @@ except ImportError as error:
 
 __all__ = ['FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator', 'simpleSetup']
 
-MAX_GOALS = 16        # of a region that offers ever more of them
-GOAL_ATTEMPTS = 1000  # to find a first valid one, or one that can be reached
-ENDLESS = 2 ** 32 - 1
-FARTHEST_DUBINS = 1e7  # turning radii from the origin: beyond, OMPL's curves may be others for rounding
+MAX_SAMPLED_GOALS = 16   # read at first from a region
+MAX_LISTED_GOALS = 1000  # read at first from a list
+GOAL_ATTEMPTS = 1000     # samples of a region for a first valid or reachable goal
+FARTHEST_DUBINS = 1e7    # turning radii from the origin, beyond which rounding may change OMPL's curves
 
 Status = ob.PlannerStatus
 
 
 def _spaceOf(si: ob.SpaceInformation) -> Tuple[str, float]:
-    """Which of OMPL's planar spaces it is, and the turning radius of its curves."""
+    """Returns the kind of a planar space and the turning radius of its curves."""
     space = si.getStateSpace()
     if isinstance(space, ob.ReedsSheppStateSpace):
         kind, unit = 'reeds_shepp', ob.ReedsSheppStateSpace(1.0)
@@ -49,7 +49,7 @@ def _spaceOf(si: ob.SpaceInformation) -> Tuple[str, float]:
         return 'se2', 0.0
     else:
         raise Error(f'space must be an SE2, a Reeds-Shepp or a Dubins state space, not {type(space).__name__}')
-    # OMPL has no getter for the radius, by which it multiplies the length of the curve for radius 1.
+    # OMPL has no getter for the radius. A distance is proportional to it.
     first, second = space.allocState(), space.allocState()
     _put(first, (0.0, 0.0, 0.0))
     _put(second, (0.0, 0.0, 0.5 * math.pi))
@@ -75,8 +75,22 @@ def _never() -> bool:
 
 
 def _isSampling(goal: ob.Goal) -> bool:
-    """May goals that are sampled elsewhere, meanwhile, still come?"""
+    """Whether another thread may still add goals."""
     return isinstance(goal, ob.GoalLazySamples) and goal.isSampling()
+
+
+def _isList(goal: ob.GoalSampleableRegion) -> bool:
+    """Whether the goals are a list. Large finite numbers of samples stand for a continuous region."""
+    return isinstance(goal, ob.GoalStates) or goal.maxSampleCount() <= MAX_LISTED_GOALS
+
+
+def _storedGoals(goal: ob.Goal) -> List[Tuple[float, float, float]]:
+    """Returns the goals that OMPL has stored so far: those of a goal state or a list."""
+    if isinstance(goal, ob.GoalState):
+        return [_poseOf(goal.getState())]
+    if isinstance(goal, ob.GoalStates):
+        return [_poseOf(goal.getState(index)) for index in range(goal.getStateCount())]
+    return []
 
 
 def _scenarioOf(si: ob.SpaceInformation, world: Any, vehicle: Any, resolution: Any, origin: Any) -> Scenario:
@@ -84,7 +98,7 @@ def _scenarioOf(si: ob.SpaceInformation, world: Any, vehicle: Any, resolution: A
         return world if vehicle is None else world.replace(vehicle=vehicle)
     if vehicle is None:
         raise Error('vehicle must be given with polygons or a grid: a Vehicle, or the name or file of one')
-    # Start and goal serve to spread a world of polygons over the whole space.
+    # Start and goal at its corners extend a world of polygons over the whole space.
     bounds = si.getStateSpace().getBounds()
     low, high = (*bounds.low, 0.0), (*bounds.high, 0.0)
     if isinstance(world, (list, tuple)) and numpy.ndim(world[0] if world else [[]]) == 2:
@@ -96,10 +110,10 @@ def _scenarioOf(si: ob.SpaceInformation, world: Any, vehicle: Any, resolution: A
 
 
 class FootprintChecker(ob.StateValidityChecker):
-    """Is the car's rectangle free of obstacles? For any planner of OMPL's.
+    """Validity checker for any OMPL planner: the car's rectangle must be free of obstacles.
 
-    world: a Scenario; or a list of polygons, each n rows x, y, with a vehicle; or a map, an array or a file as for
-    Scenario.from_grid, with a vehicle.
+    world: a Scenario; or, with a vehicle, a list of polygons (each n rows x, y) or a map (an array or a file as for
+    Scenario.from_grid).
     """
 
     def __init__(self, si: ob.SpaceInformation, world: Any, vehicle: Union[None, str, Vehicle] = None, *,
@@ -120,9 +134,9 @@ class FootprintChecker(ob.StateValidityChecker):
 
 
 class SweptMotionValidator(ob.MotionValidator):
-    """Proves motions free along their whole length, not at samples of it, for any planner of OMPL's.
+    """Motion validator for any OMPL planner that proves motions free along their whole length.
 
-    Sound, not complete: a motion that passes an obstacle nearer than a millimetre may be rejected.
+    It is sound but not complete: it may reject a motion that passes an obstacle closer than a millimetre.
     """
 
     def __init__(self, si: ob.SpaceInformation, checker: FootprintChecker) -> None:
@@ -147,13 +161,13 @@ class SweptMotionValidator(ob.MotionValidator):
 
 
 class Parameters(collections.abc.Mapping):
-    """The planner's parameters, with the methods of OMPL's ParamSet; improved_astar.parameters() explains each."""
+    """Parameters of the planner, with the methods of OMPL's ParamSet. improved_astar.parameters() documents them."""
 
     def __init__(self, values: Dict[str, Any]) -> None:
         self.current = _core._with_parameters(values)  # another dict after each change
 
     def setParam(self, name: str, value: Any) -> None:
-        """Raises Error, naming the parameter, its value and what is right, and then changes nothing."""
+        """Sets a parameter. For an invalid value it raises Error with the valid ones and changes nothing."""
         text = str(value).lower() if isinstance(value, bool) else str(value)
         self.current = _core._with_parameter(self.current, name, text)
 
@@ -181,17 +195,17 @@ class Parameters(collections.abc.Mapping):
 
 
 class _World:
-    """What the core asks of OMPL's objects. Poses come as rows x, y, yaw."""
+    """OMPL's objects as the core uses them. Poses are rows x, y, yaw."""
 
     def __init__(self, si: ob.SpaceInformation) -> None:
         self._si, self._space = si, si.getStateSpace()
-        # Once for all queries: OMPL does not free all of a state that Python lets go.
+        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
         self._first, self._last = self._space.allocState(), self._space.allocState()
         self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
         self.isTimeUp: Callable[[], bool] = _never
 
     def freeCounts(self, rows: numpy.ndarray, parts: List[int]) -> Optional[List[int]]:
-        """Of each part of the rows, the number of those before the first that is not valid; None: the time is up."""
+        """Returns the number of valid rows at the beginning of each part, or None once the time limit is met."""
         if self.areValid is not None:
             bounds = self._space.getBounds()
             valid = numpy.asarray(self.areValid(rows), dtype=bool)
@@ -216,7 +230,7 @@ class _World:
         return counts
 
     def freeMotions(self, rows: numpy.ndarray, always: bool) -> Optional[int]:
-        """How many of the first motions between the rows the motion validator accepts; None: the time is up."""
+        """Returns the number of valid motions from the first row on, or None once the time limit is met."""
         poses = rows.tolist()
         for count in range(len(poses) - 1):
             if not always and self.isTimeUp():
@@ -230,10 +244,11 @@ class _World:
 
 
 class ImprovedAStar(ob.Planner):
-    """Improved A* as a planner of OMPL's, for SE2, Reeds-Shepp and Dubins spaces.
+    """Improved A* as an OMPL planner for SE2, Reeds-Shepp and Dubins spaces.
 
-    Takes any validity checker. With a FootprintChecker the search stays in C++; one with a method areValid(poses),
-    n rows x, y, yaw to n bool, is asked in batches. Parameters: by name here, or later through params().
+    Supports any validity checker. With a FootprintChecker the search stays in C++. A checker with a method
+    areValid(poses), which maps n rows x, y, yaw to n bool, is called in batches. Parameters are set by name here, or
+    later through params().
     """
 
     def __init__(self, si: ob.SpaceInformation, name: str = 'ImprovedAStar', **parameters: Any) -> None:
@@ -245,8 +260,8 @@ class ImprovedAStar(ob.Planner):
         self._dataStates: List[ob.State] = []
         self._inputs = ob.PlannerInputStates()
         self._clearQuery()
-        # OMPL would copy a PlannerData on the way from C++ to a method of this class, and end the program because that
-        # cannot be copied. Asked once, it knows that the class has none; Python finds the object's own.
+        # OMPL would copy a PlannerData to call a method of this class from C++, which ends the program, since it cannot
+        # be copied. This call makes OMPL cache that the class has no such method; Python finds that of the object.
         super().getPlannerData(ob.PlannerData(si))
         self.getPlannerData = functools.partial(type(self)._getPlannerData, weakref.proxy(self))
 
@@ -254,7 +269,7 @@ class ImprovedAStar(ob.Planner):
         return self._params
 
     def reason(self) -> str:
-        """Why there is no solution, in one line; empty where it is only for want of time, and with one."""
+        """Why there is no solution, in one line; empty with a solution, or if only the time limit was met."""
         return self._reason
 
     def clear(self) -> None:
@@ -268,7 +283,9 @@ class ImprovedAStar(ob.Planner):
         self._query: Any = None
         self._asked: Tuple[Any, ...] = ()
         self._reason = ''
-        self._starts, self._goals = 0, []
+        self._starts: List[Tuple[float, float, float]] = []
+        self._goals: List[Tuple[float, float, float]] = []
+        self._storedGoals: List[Tuple[float, float, float]] = []
         self._otherGoals = 0
         self._bestCost: Any = None
         self._inputs.clear()
@@ -292,8 +309,12 @@ class ImprovedAStar(ob.Planner):
         goal = pdef.getGoal()
         asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), pdef.getOptimizationObjective(),
                  self._params.current)
-        if self._query is not None and not all(a is b or a == b for a, b in zip(asked, self._asked)):
+        starts, storedGoals = self._validStarts(pdef), _storedGoals(goal)
+        if self._query is not None and not (all(a is b or a == b for a, b in zip(asked, self._asked))
+                                            and starts[:len(self._starts)] == self._starts
+                                            and storedGoals[:len(self._storedGoals)] == self._storedGoals):
             self._clearQuery()
+        self._storedGoals = storedGoals
         self._reason = ''
         if ptc() and not (self._query is not None and self._query.has_solution):
             return Status.TIMEOUT
@@ -303,10 +324,10 @@ class ImprovedAStar(ob.Planner):
             self._begin(asked)
         self._world.isTimeUp = ptc
         self._inputs.use(pdef)
-        while (state := self._inputs.nextStart()) is not None:
-            self._query.add_start(*_poseOf(state))
-            self._starts += 1
-        if self._starts == 0:
+        for start in starts[len(self._starts):]:
+            self._query.add_start(*start)
+        self._starts = starts
+        if not starts:
             return Status.INVALID_START
         failure = self._readGoals(goal, ptc)
         if failure == Status.TIMEOUT:
@@ -315,9 +336,18 @@ class ImprovedAStar(ob.Planner):
         if failure == Status.INVALID_GOAL:
             self._reason = 'no goal is valid'
             fallback = self._anyGoal(goal)
-            if fallback is None or not self._params['approximate']:
+            if fallback is None or not all(map(math.isfinite, fallback)) or not self._params['approximate']:
                 return failure
         return self._search(goal, ptc, fallback)
+
+    @staticmethod
+    def _validStarts(pdef: ob.ProblemDefinition) -> List[Tuple[float, float, float]]:
+        """Returns the valid starts of a problem. Reading all of them each time detects starts that were replaced."""
+        inputs, starts = ob.PlannerInputStates(), []
+        inputs.use(pdef)
+        while (state := inputs.nextStart()) is not None:
+            starts.append(_poseOf(state))
+        return starts
 
     def _begin(self, asked: Tuple[Any, ...]) -> None:
         _, _, checker, validator, objective, parameters = self._asked = asked
@@ -340,25 +370,26 @@ class ImprovedAStar(ob.Planner):
         return True
 
     def _readGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> Any:
-        """None, INVALID_GOAL or TIMEOUT."""
-        isEndless = goal.maxSampleCount() >= ENDLESS
+        """Reads the first goals. Returns None, INVALID_GOAL or TIMEOUT."""
+        isList = _isList(goal)
+        maxGoals = MAX_LISTED_GOALS if isList else MAX_SAMPLED_GOALS
         attempt = 0
-        while (not isEndless or attempt < GOAL_ATTEMPTS) and self._inputs.haveMoreGoalStates() and \
+        while (isList or attempt < GOAL_ATTEMPTS) and self._inputs.haveMoreGoalStates() and \
                 (attempt == 0 or not ptc()):
-            if isEndless and len(self._goals) >= MAX_GOALS:
+            if len(self._goals) >= maxGoals:
                 break
             state = self._inputs.nextGoal()
-            if state is None and isEndless and self._goals:
+            if state is None and not isList and self._goals:
                 break
             self._addGoal(state)
             attempt += 1
-        # Lazily sampled goals may be on their way. For those of a list, all taken, OMPL would wait until the end.
-        mayHaveMore = _isSampling(goal) or (not isEndless and goal.maxSampleCount() == 0)
+        # Goals may still be sampled. For a list that is exhausted OMPL would wait until the time limit.
+        mayHaveMore = _isSampling(goal) or goal.maxSampleCount() == 0
         if not self._goals and goal.couldSample() and mayHaveMore:
             self._addGoal(self._inputs.nextGoal(ptc))
         if self._goals:
             return None
-        hasSeenAll = (isEndless and attempt == GOAL_ATTEMPTS) or \
+        hasSeenAll = (not isList and attempt == GOAL_ATTEMPTS) or \
             not (self._inputs.haveMoreGoalStates() or mayHaveMore)
         return Status.INVALID_GOAL if hasSeenAll or not ptc() else Status.TIMEOUT
 
@@ -367,7 +398,7 @@ class ImprovedAStar(ob.Planner):
 
     def _readAnotherGoal(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
         while not ptc() and self._mayHaveOtherGoals(goal) and \
-                (goal.maxSampleCount() < ENDLESS or self._otherGoals < GOAL_ATTEMPTS):
+                (_isList(goal) or self._otherGoals < GOAL_ATTEMPTS):
             self._otherGoals += 1
             if self._addGoal(self._inputs.nextGoal(ptc) if _isSampling(goal) else self._inputs.nextGoal()):
                 return True
@@ -427,7 +458,7 @@ class ImprovedAStar(ob.Planner):
                             target: Tuple[float, float, float]) -> float:
         if not isinstance(goal, (ob.GoalState, ob.GoalStates)):
             return goal.isSatisfiedWithDistance(state)[1]
-        # Asked itself, the goal would measure the distance to states out of bounds, which ends the program.
+        # The goal itself would measure the distance to states out of bounds, which ends the program.
         differences = []
         for pose in self._goals or [target]:
             _put(self._state, pose)
@@ -436,11 +467,11 @@ class ImprovedAStar(ob.Planner):
         return min(differences)
 
     def pieces(self) -> numpy.ndarray:
-        """The last exact solution: m rows curvature, length, sharpness, turn. Without one, no rows."""
+        """Returns the last exact solution as m rows curvature, length, sharpness, turn; no rows without one."""
         return self._query.pieces if self._query is not None else numpy.empty((0, 4))
 
     def _getPlannerData(self, data: ob.PlannerData) -> None:
-        """Both frontiers and the last exact solution, with edges in the direction of driving. The data has its own
+        """Adds both frontiers and the last exact solution, with edges in the direction of driving. The data holds
         copies of the states."""
         if self._query is None:
             return
@@ -478,9 +509,9 @@ class ImprovedAStar(ob.Planner):
 
 
 def simpleSetup(scenario: Scenario, space: Optional[ob.SE2StateSpace] = None, **parameters: Any) -> og.SimpleSetup:
-    """A SimpleSetup for a scenario: bounds, checker, motion validator, start, goals and planner.
+    """Creates a SimpleSetup for a scenario: bounds, checker, motion validator, start, goals and planner.
 
-    space: None for a Reeds-Shepp space with the vehicle's turning radius.
+    space: default is a Reeds-Shepp space with the turning radius of the vehicle.
     """
     if space is None:
         space = ob.ReedsSheppStateSpace(scenario.vehicle.turning_radius)

@@ -1,5 +1,5 @@
-// What improved_astar.ompl needs of the core: the car's body among obstacles, and a query of the planner. OMPL's own
-// objects are known to that module only, which answers for them by calls.
+// The core's part of improved_astar.ompl: footprint checks and a query of the planner. OMPL's own objects are
+// accessible only in that module, which the core calls.
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
@@ -32,13 +32,11 @@ namespace parking::python
 {
     namespace
     {
-        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles, as by SweptMotionValidator in C++
-
-        /** As OMPL allows it: in [-pi, pi). */
+        /** Wraps a heading to OMPL's range [-pi, pi). */
         double omplYaw(double yaw)
         {
             const double wrapped = wrapAngle(yaw);
-            return wrapped < PI ? wrapped : -PI;
+            return wrapped == PI ? -PI : wrapped;
         }
 
         py::array_t<double> rowsOf(const std::vector<Pose> &poses)
@@ -51,8 +49,8 @@ namespace parking::python
             return rows;
         }
 
-        /** Between the coordinates of OMPL's states, which are the world's, and those that the core plans in. What is
-            a scenario's own keeps its digits, which a subtraction would round. */
+        /** Conversion between the world coordinates of OMPL's states and the local ones of the core. Poses of the
+            scenario keep their exact local values, which a subtraction would round. */
         class Frame
         {
         public:
@@ -90,7 +88,7 @@ namespace parking::python
             std::vector<Pose> known_;
         };
 
-        /** The body among obstacles, for single questions. Built on construction, which takes its time. */
+        /** Footprint checks of single poses and motions. The constructor builds the distance field. */
         class Footprint
         {
         public:
@@ -124,10 +122,13 @@ namespace parking::python
             bool isLineFree(const Pose &from, const Pose &to) const
             {
                 CheckCounts counts;
-                return ClearanceProof(*checker_, SWEEP_TOLERANCE).proveLine(from, to, false, counts).whole;
+                return ClearanceProof(*checker_, FootprintEnvironment::TOLERANCE)
+                    .proveLine(from, to, false, counts)
+                    .whole;
             }
 
-            /** A curve of a space's own: at(t) is the pose at a fraction of it, None out of bounds. */
+            /** Whether a curve of the space is free. at(t) returns the pose at a fraction of it, or None out of bounds.
+             */
             bool isCurveFree(const py::function &at, double length, double curvature) const
             {
                 const auto pose = [&](double t)
@@ -139,7 +140,7 @@ namespace parking::python
                     return frame_.toLocal(Pose{x, y, yaw});
                 };
                 CheckCounts counts;
-                return ClearanceProof(*checker_, SWEEP_TOLERANCE)
+                return ClearanceProof(*checker_, FootprintEnvironment::TOLERANCE)
                     .prove(pose, length * checker_->speedFactor(curvature), false, counts)
                     .whole;
             }
@@ -150,12 +151,11 @@ namespace parking::python
             Frame frame_;
         };
 
-        /** Asks Python while C++ is at work without the interpreter's lock. What Python raises is kept, and ends the
-            work as if the time were up. */
+        /** Calls Python while C++ runs without the GIL. An exception is stored and ends the work like a time limit. */
         class Calls
         {
         public:
-            /** From now on \e condition is asked every 2 ms, and for signals; else nothing is. */
+            /** Starts polling \e condition and signals every 2 ms. */
             void begin(py::object condition)
             {
                 condition_ = std::move(condition);
@@ -163,7 +163,7 @@ namespace parking::python
                 next_ = {};
             }
 
-            /** Throws what was raised meanwhile; with the lock. */
+            /** Stops polling and rethrows a stored exception. Requires the GIL. */
             void end()
             {
                 condition_ = py::object();
@@ -171,7 +171,7 @@ namespace parking::python
                     std::rethrow_exception(std::exchange(raised_, nullptr));
             }
 
-            /** Is the time up, or was something raised? */
+            /** Whether the time limit is met or an exception is stored. */
             bool isOver()
             {
                 const auto now = std::chrono::steady_clock::now();
@@ -200,7 +200,7 @@ namespace parking::python
                 isOver_ = true;
             }
 
-            /** The answer; \e otherwise where something is raised. */
+            /** Returns the result of \e call, or \e otherwise if it raises. */
             template <class Call, class Answer>
             Answer ask(const Call &call, Answer otherwise)
             {
@@ -224,12 +224,12 @@ namespace parking::python
             std::chrono::steady_clock::time_point next_;
         };
 
-        /** The world as OMPL's objects in Python see it. */
+        /** Motion environment on top of OMPL's objects in Python. */
         class PythonEnvironment final : public search::MotionEnvironment
         {
         public:
-            /** \param world a _World of improved_astar.ompl
-                \param lines proves straight motions instead of world; may be null */
+            /** \param world a _World of improved_astar.ompl \param lines if not null, proves straight motions in place
+                of world */
             PythonEnvironment(Calls &calls, py::object world, const Frame &frame, const Box &bounds, double step,
                               const Footprint *lines)
               : calls_(calls),
@@ -241,7 +241,7 @@ namespace parking::python
             {
             }
 
-            /** As a path is handed out: its poses. */
+            /** Returns the poses of a path as the planner returns it. */
             std::function<std::vector<Pose>(const Path &)> posesOf;
 
             bool isFree(const Pose &pose) override
@@ -285,7 +285,7 @@ namespace parking::python
                 return freeMotions(poses, false) + 1 == poses.size();
             }
 
-            /** How many of the first motions between poses are free. \param always even when the time is up */
+            /** Number of free motions between poses, from the first on. \param always also after the time limit */
             std::size_t freeMotions(const std::vector<Pose> &poses, bool always)
             {
                 std::size_t free = 0;
@@ -339,7 +339,7 @@ namespace parking::python
                 return poses;
             }
 
-            /** Poses one after the other, parts[0] of them, then parts[1]...: how many of the first are free. */
+            /** Number of free poses at the beginning of each part of \e poses; parts holds the sizes of the parts. */
             std::vector<std::size_t> freeCounts(const std::vector<Pose> &poses, const std::vector<std::size_t> &parts)
             {
                 const std::vector<std::size_t> none(parts.size(), 0);
@@ -364,7 +364,7 @@ namespace parking::python
             const Footprint *lines_;
         };
 
-        /** The planner with one question, as ompl::geometric::ImprovedAStar asks it in C++. */
+        /** A query of the planner, the counterpart of ompl::geometric::ImprovedAStar in C++. */
         class OmplQuery
         {
         public:
@@ -378,7 +378,6 @@ namespace parking::python
                 turnsOnTheSpot_(search::turnsOnTheSpot(parameters_.motionModel)),
                 radius_(isPlain_ ? parameters_.turningRadius : turningRadius)
             {
-                constexpr double CHECK_STEP = 0.02;  // turning radii, between states asked for along a motion
                 if (!isPlain_ && turnsOnTheSpot_)
                     throw Error("motion_model " + parameters_.motionModel +
                                 " needs a plain SE2StateSpace: a Reeds-Shepp or Dubins space would turn its path into "
@@ -401,7 +400,7 @@ namespace parking::python
                 asPython_->posesOf = [this](const Path &path)
                 {
                     std::vector<Pose> poses = pathStates(path, spacing_);
-                    // Parts of paths are asked for, too, which end elsewhere.
+                    // Parts of paths end elsewhere.
                     if (isAtGoal(poses.back(), goals_, radius_))
                         endAtGoal(poses, goals_, spacing_, turnsOnTheSpot_);
                     return poses;
@@ -410,7 +409,8 @@ namespace parking::python
                 if (footprint_ && !turnsOnTheSpot_)
                 {
                     car_ = search::carInSpace(footprint_->checker().vehicle(), 0.0, box);
-                    swept_ = std::make_unique<FootprintEnvironment>(footprint_->checker(), box, SWEEP_TOLERANCE,
+                    swept_ = std::make_unique<FootprintEnvironment>(footprint_->checker(), box,
+                                                                    FootprintEnvironment::TOLERANCE,
                                                                     isSwept ? nullptr : asPython_.get());
                     environment = swept_.get();
                 }
@@ -440,9 +440,8 @@ namespace parking::python
                 return true;
             }
 
-            /** \param judge is given the rows of an improvement: 0 it is none, 1 it is one, 2 it is good enough; None
-                where length and clearance decide
-                \return solved, exhausted or stopped */
+            /** \param judge receives the rows of a path and returns 0 to reject it, 1 to accept it, 2 to accept it and
+                stop; with None, length and clearance decide \return solved, exhausted or stopped */
             std::string solve(const py::object &condition, const py::object &judge)
             {
                 using Outcome = search::PathPlanner::Outcome;
@@ -457,7 +456,7 @@ namespace parking::python
                 return outcome == Outcome::Solved ? "solved" : outcome == Outcome::Exhausted ? "exhausted" : "stopped";
             }
 
-            /** A path towards a goal that it does not reach; false without one. */
+            /** Finds a path towards a goal that it does not reach; false without one. */
             bool approximate(double x, double y, double yaw, const py::object &condition)
             {
                 bool found = false;
@@ -470,8 +469,8 @@ namespace parking::python
                     if (found)
                     {
                         states_ = pathStates(smoothed(nearest), spacing_);
-                        // Up to where the motion validator agrees. With a checker that takes long there is no time
-                        // for that once the planner has been told to stop.
+                        // The path ends where the motion validator rejects it. After the stop a slow checker is not
+                        // called.
                         if (!turnsOnTheSpot_ && (swept_ || !calls_.isOver()))
                             states_.resize(asPython_->freeMotions(states_, swept_ != nullptr) + 1);
                     }
@@ -485,7 +484,7 @@ namespace parking::python
                 return hasSolution_;
             }
 
-            /** Rows of the best path, or of the approximate one. */
+            /** Rows of the best path or of the approximate one. */
             py::array_t<double> states(bool isExact)
             {
                 std::vector<Pose> poses = isExact ? solution_ : states_;
@@ -494,7 +493,7 @@ namespace parking::python
                 const Pose first = poses.front(), last = poses.back();
                 for (Pose &pose : poses)
                     pose = frame_.toWorld(pose);
-                // The ends as they were given: the sum of what was subtracted may be rounded.
+                // The ends are the given poses, since adding the offset again may round.
                 for (const Pose &start : starts_)
                     if (isSamePose(frame_.toLocal(start), first, 0.0))
                         poses.front() = start;
@@ -515,7 +514,7 @@ namespace parking::python
                 return rows;
             }
 
-            /** Why there is no solution, where it is known. */
+            /** Reason why there is no solution, if known. */
             std::string reason(bool isExhausted)
             {
                 if (isExhausted)
@@ -528,7 +527,7 @@ namespace parking::python
                 return planner_.expanded();
             }
 
-            /** Poses of a frontier's nodes and, for each, the index of the one before it or -1. */
+            /** Poses of a frontier's nodes and, for each, the index of its parent or -1. */
             py::tuple frontier(bool ofGoal) const
             {
                 std::vector<Pose> poses;
@@ -552,7 +551,7 @@ namespace parking::python
                 return result;
             }
 
-            /** As OMPL measures it in a plain SE2 space. */
+            /** Length by OMPL's distance in a plain SE2 space. */
             static double lengthOf(const std::vector<Pose> &poses)
             {
                 double length = 0.0;
@@ -605,7 +604,7 @@ namespace parking::python
             std::vector<Pose> solution_, states_;
         };
 
-        /** All parameters after one of them was given a value in words, as OMPL's ParamSet gives it. */
+        /** All parameters after setting one of them from text, as OMPL's ParamSet does. */
         py::dict withParameter(const py::dict &current, const std::string &name, const std::string &value)
         {
             PlannerParameters parameters = parametersFrom(current);

@@ -41,7 +41,7 @@ namespace parking::python
             return {x, y};
         }
 
-        /** The cells of a map are a byte each: there may be millions of them. */
+        /** Cells of a map are stored as one byte each, since there may be millions. */
         py::object stateOf(const std::optional<OccupancyGrid> &grid)
         {
             if (!grid)

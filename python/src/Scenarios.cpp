@@ -56,7 +56,7 @@ namespace parking::python
                                                                      : readRosMap(file, nullptr, &warnings);
         }
 
-        /** Passes on what the reader of a file has to say. Throws where warnings are errors. */
+        /** Issues the warnings of a reader. Throws if Python treats warnings as errors. */
         void warn(const std::vector<std::string> &warnings)
         {
             for (const std::string &each : warnings)

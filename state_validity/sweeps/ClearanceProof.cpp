@@ -10,21 +10,20 @@ namespace parking
 {
     namespace
     {
-        // Nearer than these parts of the tolerance nothing is proven, on the way and at an end.
-        constexpr double CLOSEST = 0.1, CLOSEST_END = 1e-4;
-        // Questions nearer than the tolerance, which prove little each.
+        // Smallest clearances that prove a motion free, as shares of the tolerance: along the motion and at its ends.
+        constexpr double MIN_CLEARANCE = 0.1, MIN_END_CLEARANCE = 1e-4;
         // Metres of a proven clearance that are not used, so that poses at its end are not in contact.
         constexpr double APART = 1.5 * FootprintChecker::CONTACT_BAND;
-        constexpr int MAX_TIGHT_CHECKS = 4096;
-    }  // namespace
+        constexpr int MAX_TIGHT_CHECKS = 4096;  // with a clearance below the tolerance, which prove only short parts
+    }                                           // namespace
 
     double ClearanceProof::toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const
     {
-        double tolerance = CLOSEST * tolerance_;
+        double tolerance = MIN_CLEARANCE * tolerance_;
         for (const Pose &pose : {from, to})
             if (!footprint_.keeps(pose, 2.0 * tolerance, counts))
                 tolerance = std::min(tolerance, 0.5 * footprint_.exactClearance(pose));
-        return std::max(tolerance, CLOSEST_END * tolerance_);
+        return std::max(tolerance, MIN_END_CLEARANCE * tolerance_);
     }
 
     MotionProof ClearanceProof::proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const
@@ -43,7 +42,7 @@ namespace parking
                                       CheckCounts &counts) const
     {
         const double length = moved * (1.0 + 1e-9) + 1e-12;
-        // Stretches still to be proven free, the earliest on top: all before its begin is proven.
+        // Parts still to be proven free, the earliest on top. Everything before its beginning is proven.
         std::array<std::pair<double, double>, 128> open;
         std::size_t count = 0;
         open[count++] = {0.0, 1.0};
@@ -69,7 +68,7 @@ namespace parking
                 break;
             if (clearance < tolerance)
             {
-                // Not free here, or too near to tell; all that matters now is how much is free before.
+                // This pose is not proven free, so only the part before it still matters.
                 if (!exact || half < tolerance)
                     break;
                 count = 0;

@@ -7,23 +7,24 @@
 
 namespace parking
 {
-    /** \brief How much of a motion is proven free. */
+    /** \brief The part of a motion that is proven free. */
     struct MotionProof
     {
-        bool whole{false};     ///< all of it is
-        double fraction{0.0};  ///< of the motion, from its start
-        Pose pose;             ///< at that fraction
+        bool whole{false};     ///< whether the whole motion is proven free
+        double fraction{0.0};  ///< proven fraction of the motion, from its start
+        Pose pose;             ///< pose at the end of the proven part
     };
 
     /** \brief Proves motions free of obstacles along their whole length by clearances.
 
-        No point of the body moves farther than the clearance in the middle of a part of the motion, or the part is
-        halved (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
-        Sound, not complete: nearer than a tenth of the tolerance nothing is proven on the way. */
+        A part of the motion is free if no point of the body moves farther than the clearance in its middle; otherwise
+        it is divided (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of rigid body systems",
+        1996). The proof is sound but not complete: it fails for motions closer to an obstacle than a tenth of the
+        tolerance. */
     class ClearanceProof
     {
     public:
-        /** \brief \param footprint must outlive this object
+        /** \brief Creates a proof. \param footprint must outlive this object
             \param tolerance metres, positive */
         ClearanceProof(const FootprintChecker &footprint, double tolerance)
           : footprint_(footprint),
@@ -31,14 +32,14 @@ namespace parking
         {
         }
 
-        /** \brief Any motion.
+        /** \brief Proves an arbitrary motion.
 
-            \param at the pose at a fraction of the motion
-            \param moved metres that no point of the body exceeds on it
-            \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
+            \param at returns the pose at a fraction of the motion
+            \param moved upper limit of the metres that a point of the body moves
+            \param exact whether the fraction is required for a motion that is not free */
         MotionProof prove(const std::function<Pose(double)> &at, double moved, bool exact, CheckCounts &counts) const;
 
-        /** \brief The motion along which position and heading change evenly. */
+        /** \brief Proves the motion with linear position and heading. */
         MotionProof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
 
     private:

@@ -153,6 +153,59 @@ def test_a_query_goes_on():
     assert solve(setup, 0.2) == Type.EXACT_SOLUTION
 
 
+def test_replaced_starts_and_goals_begin_a_new_query():
+    setup = iao.simpleSetup(wall())
+    goal = ob.GoalState(setup.getSpaceInformation())
+    goal.setState(state(setup, (10, -5, 0)))
+    setup.setGoal(goal)
+    assert solve(setup) == Type.EXACT_SOLUTION
+    setup.getProblemDefinition().clearStartStates()
+    setup.getProblemDefinition().addStartState(state(setup, (-10, 5, 0)))
+    setup.getProblemDefinition().clearSolutionPaths()
+    assert solve(setup) == Type.EXACT_SOLUTION
+    assert rows(setup.getSolutionPath())[0] == pytest.approx((-10, 5, 0))
+    goal.setState(state(setup, (10, 5, 0)))
+    setup.getProblemDefinition().clearSolutionPaths()
+    assert solve(setup) == Type.EXACT_SOLUTION
+    assert rows(setup.getSolutionPath())[-1] == pytest.approx((10, 5, 0))
+
+
+def test_of_many_goals_only_some_are_read():
+    class Counted(ob.GoalSampleableRegion):
+        """A large finite number of samples, as regions of users have."""
+        count = 0
+
+        def sampleGoal(self, goal):
+            self.count += 1
+            goal.setX(8.0 + 0.37 * self.count % 5)
+            goal.setY(-5.0)
+            goal.setYaw(0.0)
+
+        def maxSampleCount(self):
+            return 2 ** 31 - 1
+
+        def couldSample(self):
+            return True
+
+        def distanceGoal(self, other):
+            return max(0.0, 8.0 - other.getX())
+
+    setup = iao.simpleSetup(wall())
+    region = Counted(setup.getSpaceInformation())
+    setup.setGoal(region)
+    assert solve(setup) == Type.EXACT_SOLUTION and region.count <= 100
+
+
+def test_goals_that_are_not_finite_are_invalid():
+    for value in (math.inf, math.nan):
+        for place in range(3):
+            setup = iao.simpleSetup(wall())
+            pose = [10.0, -5.0, 0.0]
+            pose[place] = value
+            setup.setGoalState(state(setup, pose))
+            assert solve(setup) == Type.INVALID_GOAL
+
+
 def test_planner_data():
     setup = iao.simpleSetup(wall())
     data = ob.PlannerData(setup.getSpaceInformation())

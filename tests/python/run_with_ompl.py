@@ -1,4 +1,4 @@
-"""Runs pytest where `pip install ompl` has put OMPL's own Python package: in a virtual environment, made once.
+"""Runs pytest in a virtual environment with OMPL's own Python package, which it creates on first use.
 
 usage: run_with_ompl.py FOLDER TEST...
 """
@@ -19,7 +19,7 @@ def main(folder, *tests):
     if subprocess.run(has_ompl, capture_output=True, check=False).returncode != 0:
         subprocess.run([python, '-m', 'pip', 'install', '--quiet', '--timeout', '20', '--retries', '1', OMPL], check=False)
     if subprocess.run(has_ompl, capture_output=True, check=False).returncode != 0:
-        print(f"SKIPPED: OMPL's Python package cannot be had here (pip install '{OMPL}')")
+        print(f"SKIPPED: OMPL's Python package is not available here (pip install '{OMPL}')")
         return SKIPPED
     run_pytest = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'run_pytest')
     return subprocess.run([python, '-B', run_pytest, *tests], check=False).returncode

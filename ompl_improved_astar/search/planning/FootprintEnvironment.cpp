@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 
 #include "state_validity/FootprintCells.h"
+#include "state_validity/sweeps/ClearanceProof.h"
 #include "state_validity/sweeps/SweptBox.h"
 
 #include <algorithm>
@@ -109,16 +110,9 @@ namespace parking
 
     bool FootprintEnvironment::isMotionFree(const Pose &from, const Pose &to)
     {
-        if (!isFree(to))
-            return false;
-        // No point of the body moves farther than this; what the clearance in the middle does not cover is halved.
-        const double turn = wrapAngle(to.yaw - from.yaw);
-        const double moved = positionDistance(from, to) + checker_.farthestPoint() * std::abs(turn);
-        const Pose middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y), wrapAngle(from.yaw + 0.5 * turn)};
-        const double covered = checker_.clearance(middle, 0.5 * moved, counts_);
-        if (covered >= 0.5 * moved)
-            return !boundsMatter_ || (bounds_.contains(middle.x, middle.y) && bounds_.contains(from.x, from.y));
-        return moved > tolerance_ && covered > 0.0 && isMotionFree(from, middle) && isMotionFree(middle, to);
+        // The bounds are convex: between two positions in them all are.
+        return isFree(to) && (!boundsMatter_ || bounds_.contains(from.x, from.y)) &&
+               ClearanceProof(checker_, tolerance_).proveLine(from, to, false, counts_).whole;
     }
 
     search::BlockedHeadings FootprintEnvironment::blockedHeadings(double side, int headings)

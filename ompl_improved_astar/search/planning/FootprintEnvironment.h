@@ -12,6 +12,9 @@ namespace parking
     class FootprintEnvironment final : public search::MotionEnvironment
     {
     public:
+        /** \brief Tolerance of the planner: metres kept from obstacles along motions. */
+        static constexpr double TOLERANCE = 1e-3;
+
         /** \brief \param checker must outlive the environment
             \param bounds of the rear axle's position, in addition to the checker's world
             \param tolerance metres kept from obstacles along motions
@@ -23,7 +26,7 @@ namespace parking
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                          double *lengths) override;
         bool keeps(const Pose &pose, double clearance) override;
-        /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
+        /** \brief Sound, but not complete: see ClearanceProof. */
         bool isMotionFree(const Pose &from, const Pose &to) override;
         double roomAt(double x, double y) override;
         search::BlockedHeadings blockedHeadings(double side, int headings) override;

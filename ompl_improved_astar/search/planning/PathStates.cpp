@@ -16,9 +16,9 @@ namespace parking
         // Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on a
         // plain SE2 space it keeps the chord within a hundred-thousandth of the radius of the arc.
         constexpr double DENSE_SPACING = 0.01;
-        constexpr double AT_GOAL = 1e-3;  // turning radii: what ends nearer to a goal ends there, but for rounding
-        // Of the lines that straightened() mends.
-        constexpr double SHORT = 0.25;     // turning radii that they are shorter than
+        constexpr double AT_GOAL = 1e-3;  // turning radii within which a pose counts as the goal
+        // Lines that straightened() examines.
+        constexpr double SHORT = 0.25;     // upper limit of their length, turning radii
         constexpr double STRAIGHT = 1e-9;  // metres and radians by which they may deviate
         constexpr double FRACTIONS[] = {0.5, 0.37, 0.63, 0.29, 0.71, 0.43, 0.57, 0.23, 0.77, 0.17, 0.83, 0.11, 0.89};
 
@@ -117,7 +117,7 @@ namespace parking
         for (std::size_t i = poses.size(); i-- > 1 && turnsOnTheSpot && positionDistance(poses[i], goal) <= 1e-6;)
             poses[i] = {goal.x, goal.y, poses[i].yaw};
         poses.back() = goal;
-        // With the last digits of another end.
+        // The new end may make other lines swerve.
         poses = straightened(std::move(poses), spacing);
     }
 }  // namespace parking

@@ -8,41 +8,43 @@
 
 namespace parking
 {
-    /** \brief How far apart the states of a path may be for a space's own interpolation to follow the path.
+    /** \brief Largest distance between states of a path at which a space's own interpolation follows the path.
 
-        Of straight lines and turns on the spot the ends suffice everywhere. Spaces of curves go from state to state
-        along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
-        arc and a line. */
+        For straight lines and turns on the spot the ends suffice. Curve spaces also connect states by arcs at their
+        turning radius; they would replace a gentler arc or a clothoid by a sharper arc and a line. */
     struct StateSpacing
     {
         double onArcs{0.0};         ///< metres; 0 where the ends of short arcs suffice
-        double onGentleArcs{0.0};   ///< metres; 0 as above
+        double onGentleArcs{0.0};   ///< metres; 0 where the ends of short gentle arcs suffice
         double turningRadius{0.0};  ///< metres; arcs that turn less are gentle
-        /** Length in metres of a Reeds-Shepp space's curve between two poses, for straightened(); empty: nothing is
-            straightened. */
+        /** Length in metres of the curve of a Reeds-Shepp space between two poses, for straightened(); empty in other
+            spaces. */
         std::function<double(const Pose &, const Pose &)> curveLength;
     };
 
-    /** \brief The spacing for a space.
+    /** \brief Largest distance, in turning radii, between states that are checked along a motion if the validity
+       checker supports states only. */
+    constexpr double CHECK_STEP = 0.02;
 
-        \param isPlain whether it is a plain SE2 space, with straight lines between its states
-        \param turnsOnTheSpot whether the motion model's paths do */
+    /** \brief Returns the spacing for a space.
+
+        \param isPlain whether it is a plain SE2 space, which interpolates by straight lines \param turnsOnTheSpot
+        whether paths of the motion model turn on the spot */
     StateSpacing stateSpacing(bool isPlain, double turningRadius, bool turnsOnTheSpot);
 
-    /** \brief The poses of \e path between which the space's own interpolation follows the path. */
+    /** \brief Returns the poses of \e path between which the space's own interpolation follows the path. */
     std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
 
-    /** \brief The poses, and others in between where a Reeds-Shepp space would swerve instead of driving straight on.
+    /** \brief Adds poses where a Reeds-Shepp space would swerve instead of driving straight.
 
-        Of straight lines much shorter than the turning radius OMPL misses the shortest curve now and then, because of
-        the last digits of their ends, and takes one of four arcs instead (measured with OMPL 1.5: 4 to 7 % of those up
-        to 4 % of the radius, none from 8 % on, with coordinates below 50 m). Other digits will do. */
+        For some straight lines much shorter than the turning radius, rounding makes OMPL miss the shortest curve and
+        return four arcs instead (OMPL 1.5: lines up to 8 % of the radius). Slightly different poses avoid this. */
     std::vector<Pose> straightened(std::vector<Pose> poses, const StateSpacing &spacing);
 
-    /** \brief Does a path that ends at \e pose end at one of the goals, but for rounding? */
+    /** \brief Whether \e pose is one of the goals up to rounding. */
     bool isAtGoal(const Pose &pose, const std::vector<Pose> &goals, double turningRadius);
 
-    /** \brief Replaces the end of a path by the very goal that is nearest to it, of at least one. */
+    /** \brief Replaces the end of a path by the nearest goal, of at least one. */
     void endAtGoal(std::vector<Pose> &poses, const std::vector<Pose> &goals, const StateSpacing &spacing,
                    bool turnsOnTheSpot);
 }  // namespace parking
