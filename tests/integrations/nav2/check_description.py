@@ -22,13 +22,18 @@ def main(folder, version):
         faults.append(f'the description has {one.attrib}, the code exports {exported.groups()}')
     if package.find('version').text != version:
         faults.append(f'package.xml has version {package.find("version").text}, the project {version}')
+    # ROS's tools ignore a file whose address has no domain.
+    if not re.fullmatch(r'[\w%+.-]+@[\w-]+(\.[\w-]+)*\.[a-zA-Z]{2,}', package.find('maintainer').get('email')):
+        faults.append('package.xml: the maintainer has no valid e-mail address')
     name = package.find('name').text
     if f'project({name} ' not in cmake or f'add_library({described.get("path")} ' not in cmake:
         faults.append(f'CMakeLists.txt builds no {name} with a library {described.get("path")}')
     if package.find('export').find('nav2_core').get('plugin') != '${prefix}/global_planner_plugin.xml':
         faults.append('package.xml exports another description')
     needed = sorted(each.text for each in package.findall('depend'))
-    found = sorted(re.search(r'set\(dependencies ([^)]*)\)', cmake).group(1).split())
+    found = re.search(r'set\(dependencies ([^)]*)\)', cmake).group(1).split()
+    found += [name for name in re.findall(r'find_package\((\w+) REQUIRED', cmake) if name not in ('ament_cmake', 'nav2_common')]
+    found.sort()
     if needed != found:
         faults.append(f'package.xml depends on {needed}, CMakeLists.txt finds {found}')
     for source in [entry for entry in os.listdir(folder) if entry.endswith('.cpp')]:
