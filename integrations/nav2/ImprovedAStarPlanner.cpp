@@ -1,12 +1,13 @@
 #include "integrations/nav2/ImprovedAStarPlanner.h"
 
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
-#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <utility>
 
@@ -166,33 +167,66 @@ namespace parking
     {
         if (!query.checker.isFree(from))
             throw compatibility::StartOccupied("the car touches an obstacle at its start " + textOf(from));
-        if (!query.checker.isFree(to))
+        const GoalSettings goal = isLast ? query.settings.goal : GoalSettings{};
+        const unsigned int headingBins = query.settings.parameters.headingBins;
+        std::vector<std::vector<Pose>> attempts;
+        for (const std::vector<Pose> &poses : {goalPoses(to, goal, headingBins), posesNearGoal(to, goal, headingBins)})
+        {
+            std::vector<Pose> free;
+            std::copy_if(poses.begin(), poses.end(), std::back_inserter(free),
+                         [&](const Pose &pose) { return isWithin(query.bounds, pose) && query.checker.isFree(pose); });
+            if (!free.empty())
+                attempts.push_back(std::move(free));
+        }
+        if (attempts.empty())
             throw compatibility::GoalOccupied("the car would touch an obstacle at the goal " + textOf(to));
+        std::string reason{"there is no path"};
+        bool timedOut = false;
+        for (std::size_t i = 0; i < attempts.size(); ++i)
+        {
+            const bool isLastAttempt = i + 1 == attempts.size();
+            const Clock::time_point now = Clock::now();
+            const auto share = (query.end - now) / static_cast<Clock::rep>(attempts.size() - i);
+            const bool approximate = query.settings.allowApproximate && isLast && isLastAttempt;
+            search::PlanResult result = planAttempt(query, from, attempts[i], approximate, now + share);
+            if (result.outcome == search::PlanOutcome::Solved || result.outcome == search::PlanOutcome::Approximate)
+                return std::move(result.path);
+            timedOut = timedOut || result.outcome == search::PlanOutcome::Timeout;
+            if (!result.reason.empty())
+                reason = result.reason;
+        }
+        if (timedOut)
+            throw compatibility::PlannerTimedOut("no path was found within " +
+                                                 formatNumber(query.settings.maxPlanningTime) + " s");
+        throw compatibility::NoValidPathCouldBeFound(reason);
+    }
+
+    search::PlanResult ImprovedAStarPlanner::planAttempt(const Query &query, const Pose &from,
+                                                         const std::vector<Pose> &goals, bool approximate,
+                                                         Clock::time_point end) const
+    {
         search::PlanRequest request;
         request.starts = {from};
-        request.goals = {to};
+        request.goals = goals;
         request.parameters = query.settings.parameters;
-        request.parameters.approximate = query.settings.allowApproximate && isLast;
+        request.parameters.approximate = approximate;
         request.car = search::carInSpace(query.settings.vehicle, query.settings.margin, query.bounds);
         // Polled once here, since a search without expansions does not poll.
         bool cancelled = query.cancelled && query.cancelled();
         request.stop = [&]
         {
             cancelled = cancelled || (query.cancelled && query.cancelled());
-            return cancelled || Clock::now() >= query.end;
+            return cancelled || Clock::now() >= end;
         };
+        search::PlanResult result;
+        if (!cancelled)
+        {
+            FootprintEnvironment environment(query.checker, query.bounds, TOLERANCE);
+            result = search::plan(environment, request);
+        }
         if (cancelled)
             throw compatibility::PlannerCancelled("planning was cancelled");
-        FootprintEnvironment environment(query.checker, query.bounds, TOLERANCE);
-        const search::PlanResult result = search::plan(environment, request);
-        if (cancelled)
-            throw compatibility::PlannerCancelled("planning was cancelled");
-        if (result.outcome == search::PlanOutcome::Solved || result.outcome == search::PlanOutcome::Approximate)
-            return result.path;
-        if (result.outcome == search::PlanOutcome::Timeout)
-            throw compatibility::PlannerTimedOut("no path was found within " +
-                                                 formatNumber(query.settings.maxPlanningTime) + " s");
-        throw compatibility::NoValidPathCouldBeFound(result.reason.empty() ? "there is no path" : result.reason);
+        return result;
     }
 
     Pose ImprovedAStarPlanner::poseOf(const PoseStamped &stamped) const

@@ -2,10 +2,12 @@
 
 #include "integrations/nav2/Nav2Compatibility.h"
 #include "integrations/nav2/Nav2Settings.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Pose.h"
 #include "state_validity/FootprintChecker.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -65,6 +67,8 @@ namespace parking
 
         OccupancyGrid copyOfCostmap(const Nav2Settings &settings) const;
         Path planLeg(const Query &query, const Pose &from, const Pose &to, bool isLast) const;
+        search::PlanResult planAttempt(const Query &query, const Pose &from, const std::vector<Pose> &goals,
+                                       bool approximate, std::chrono::steady_clock::time_point end) const;
         Pose poseOf(const PoseStamped &stamped) const;
 
         nav2_compatibility::Node::WeakPtr node_;

@@ -32,6 +32,10 @@ namespace parking
             visit("unknown_is_occupied", settings.unknownIsOccupied);
             visit("max_planning_time", settings.maxPlanningTime);
             visit("path_resolution", settings.pathResolution);
+            visit("goal_heading_mode", settings.goal.headingMode);
+            visit("coarse_search_resolution", settings.goal.coarseSearchResolution);
+            visit("tolerance", settings.goal.tolerance);
+            visit("heading_tolerance", settings.goal.headingTolerance);
             visit("allow_approximate", settings.allowApproximate);
             for (const Parameter &row : parameterTable())
                 if (row.name != "turning_radius" &&
@@ -80,6 +84,7 @@ namespace parking
                        });
         settings.vehicle.validate();
         checkParameters(settings.parameters);
+        checkGoalSettings(settings.goal, settings.parameters.headingBins);
         checkRange("margin", settings.margin, 0.0, 10.0);
         checkRange("lethal_cost", settings.lethalCost, 1.0, 254.0);
         checkRange("max_planning_time", settings.maxPlanningTime, 1e-3, 3600.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrations/nav2/GoalPoses.h"
 #include "integrations/nav2/Nav2Compatibility.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Vehicle.h"
@@ -13,6 +14,7 @@ namespace parking
     {
         Vehicle vehicle;  ///< from `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
         PlannerParameters parameters;  ///< by the names of parameterTable(); `turning_radius` is the vehicle's
+        GoalSettings goal;             ///< poses that a plan may end at
         double margin{0.05};           ///< `margin`: metres by which the body is enlarged on each side
         int lethalCost{254};           ///< `lethal_cost`: minimum cost of an obstacle's cells
         bool unknownIsOccupied{true};  ///< `unknown_is_occupied`: whether unknown cells are obstacles

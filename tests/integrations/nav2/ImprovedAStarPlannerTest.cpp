@@ -197,6 +197,59 @@ namespace
         expectRefusal<compatibility::PlannerException>(start, goal, "not configured");
     }
 
+    TEST_F(Nav2Planner, TheHeadingModeDeterminesTheHeadingsOfTheGoal)
+    {
+        // A dead end, 2.6 m wide: driving in forwards is the shortest route, and the goal's heading requires reversing.
+        fill(6.0, 3.7, 14.0, 5.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        fill(6.0, 7.6, 14.0, 9.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        fill(13.5, 5.0, 14.0, 7.6, nav2_costmap_2d::LETHAL_OBSTACLE);
+        const PoseStamped from = stamped(-5.0, 6.3, 0.0), inReverse = stamped(9.5, 6.3, M_PI);
+        EXPECT_NEAR(std::abs(yawOf(plan(from, inReverse).poses.back())), M_PI, 1e-6);
+        for (const char *mode : {"BIDIRECTIONAL", "ALL_DIRECTION"})
+        {
+            set("goal_heading_mode", std::string(mode));
+            const PoseStamped end = plan(from, inReverse).poses.back();
+            EXPECT_LT(distance(end, inReverse), 1e-6) << mode;
+            EXPECT_NEAR(std::remainder(yawOf(end), 2.0 * M_PI), 0.0, 1e-6) << mode;
+        }
+        set("coarse_search_resolution", std::int64_t(7));
+        expectRefusal<compatibility::PlannerException>(from, inReverse, "coarse_search_resolution must divide");
+        set("coarse_search_resolution", std::int64_t(1));
+        set("goal_heading_mode", std::string("ANY"));
+        expectRefusal<compatibility::PlannerException>(from, inReverse, "'ANY'");
+    }
+
+    TEST_F(Nav2Planner, AGoalOutOfReachIsReplacedByAPoseWithinTheTolerances)
+    {
+        // From rear axle to nose the car measures 3.76 m, with the margin 3.81 m; the wall begins 3.65 m ahead.
+        fill(12.0, -5.0, 13.0, 15.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        const PoseStamped blocked = stamped(8.35, 3.0, 0.0);
+        expectRefusal<compatibility::GoalOccupied>(start, blocked, "at the goal");
+        set("tolerance", 0.1);
+        expectRefusal<compatibility::GoalOccupied>(start, blocked, "at the goal");
+        set("tolerance", 0.4);
+        const PoseStamped end = plan(start, blocked).poses.back();
+        EXPECT_GT(distance(end, blocked), 0.1);
+        EXPECT_LE(distance(end, blocked), 0.4 + 1e-6);
+        EXPECT_NEAR(yawOf(end), 0.0, 1e-6);
+        const PoseStamped free = stamped(6.0, 3.0, 0.0);
+        EXPECT_LT(distance(plan(start, free).poses.back(), free), 1e-6) << "the goal itself has precedence";
+        set("heading_tolerance", -0.1);
+        expectRefusal<compatibility::PlannerException>(start, blocked, "heading_tolerance must be between");
+    }
+
+    TEST_F(Nav2Planner, AGoalBesideAWallIsReachedAtAnotherHeadingWithinTheTolerance)
+    {
+        fill(-10.0, 7.0, 20.0, 8.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        const PoseStamped turned = stamped(6.0, 5.9, 0.1);
+        expectRefusal<compatibility::GoalOccupied>(start, turned, "at the goal");
+        set("heading_tolerance", 0.2);
+        const PoseStamped end = plan(start, turned).poses.back();
+        EXPECT_LT(distance(end, turned), 1e-6);
+        EXPECT_NEAR(yawOf(end), 0.1, 0.2 + 1e-6);
+        EXPECT_LT(yawOf(end), 0.05);
+    }
+
 #ifndef NAV2_humble
     TEST_F(Nav2Planner, CancellingEndsPlanning)
     {
