@@ -62,6 +62,9 @@ install(FILES
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${parking_package_dir} COMPONENT development RENAME ${PROJECT_NAME}Dependencies.cmake)
 
+# ROS finds packages by this file.
+install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME} COMPONENT development)
+
 parking_install_pkg_config()
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)

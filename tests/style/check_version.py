@@ -12,6 +12,7 @@ from project_files import report, text_of
 # file -> what it says of the version: the expression finds it, and there must be as many as the second number.
 NAMED = {
     'CHANGELOG.md': (r'\A(?:(?!^## ).)*^## (\S+)', 1),  # the first heading
+    'package.xml': (r'<version>(.*?)</version>', 1),
     'integrations/nav2/package.xml': (r'<version>(.*?)</version>', 1),
     'CITATION.cff': (r'^version: *["\']?([^"\'\s]+)', 1),
     'pyproject.toml': (r'^version *= *["\']([^"\']+)', 0),

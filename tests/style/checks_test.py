@@ -177,13 +177,15 @@ class ChecksTest(unittest.TestCase):
         changes = '# Changelog\n\nNewest first.\n\n## 0.3.0 (unreleased)\n\nAll new.\n\n## 0.2.0\n'
         self.write('CMakeLists.txt', 'cmake_minimum_required(VERSION 3.25)\nproject(some_project\n  VERSION 0.3.0\n)\n')
         self.write('CHANGELOG.md', changes)
-        self.write('integrations/nav2/package.xml', '<?xml version="1.0"?>\n<version>0.3.0</version>\n')
+        for folder in ('', 'integrations/nav2/'):
+            self.write(f'{folder}package.xml', '<?xml version="1.0"?>\n<version>0.3.0</version>\n')
         self.write('CITATION.cff', 'cff-version: 1.2.0\nversion: "0.3.0"\n')
         self.write('pyproject.toml', 'cmake.version = ">=3.25"\ndynamic = ["version"]\ninput = "CMakeLists.txt"\n')
         self.write('scripts/package', 'libompl-improved-astar$soversion\n')
         done = self.run_check('version')
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         for name, text in (('CHANGELOG.md', changes.replace('## 0.3.0', '## 0.4.0')), ('CHANGELOG.md', '# Changelog\n'),
+                           ('package.xml', '<version>0.2.0</version>\n'),
                            ('integrations/nav2/package.xml', '<version>0.2.0</version>\n'),
                            ('CITATION.cff', 'cff-version: 1.2.0\nversion: "0.2.0"\n'),
                            ('CITATION.cff', 'cff-version: 1.2.0\ntitle: some\n'),
