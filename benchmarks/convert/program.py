@@ -14,7 +14,7 @@ import numpy as np
 from improved_astar import Error, Vehicle
 from improved_astar._core import _read_file as read_file, _unknown_name as unknown_name, _write_file as write_file
 
-from . import bench_mr, commonparking, hope, matlab, own, results
+from . import bench_mr, commonparking, hope, matlab, own, parkbench, results
 from .scenarios import obstacle_polygons
 from .text import counted, number, numbers, one_line, pose_of, quoted
 
@@ -33,7 +33,7 @@ class ProblemFormat:
     largest: int                         # maximum bytes of a file
     recognizes: Callable[[bytes], bool]  # (content): whether it has this format
     read: Callable[..., Any]             # (file, content, vehicle, start, goal): the Scenario
-    write: Callable[..., Any]            # (scenario, file): the content of the file, as text or bytes
+    write: Callable[..., Any]            # (scenario, file): the content of the file, as text or bytes; None: read only
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,8 @@ PROBLEM_FORMATS = [
     ProblemFormat('benchmr', '.svg', 'polygon scenes of Bench-MR; obstacles are convex', 16 * MEBIBYTE,
                   lambda content: content.removeprefix(b'\xef\xbb\xbf').lstrip().startswith(b'<'),
                   bench_mr.read, bench_mr.svg_text),
+    ProblemFormat('parkbench', '.json', 'scenes of ParkBench, without a car; read only', 16 * MEBIBYTE,
+                  parkbench.is_scene, parkbench.read, None),
     ProblemFormat('tpcap', '.csv', 'cases of TPCAP, without a car; default: TPCAP\'s car',
                   16 * MEBIBYTE, lambda content: False, own.read, own.tpcap_text),
     ProblemFormat('yaml', '.yaml', 'scenarios of this project, with the maps and voxels that they name', 16 * MEBIBYTE,
@@ -156,7 +158,7 @@ def convert(arguments):
     elif output == '-':
         raise Error("'-' is not standard output here; for a file of that name write './-'")
     content = read_file(source, LARGEST)  # once: a pipe cannot be read again
-    if results.is_result(content):
+    if results.is_result(content) and not parkbench.is_scene(content):
         return convert_result(source, content, output, options)
     return convert_problem(source, content, output, options)
 
@@ -193,7 +195,8 @@ def whole_option(options, name, default, least, most):
 
 
 def format_for(formats, what, name, output):
-    """The format of this name, else the first one of the output's extension."""
+    """The format of this name, else the first one of the output's extension, of those that can be written."""
+    formats = [each for each in formats if each.write]
     for each in formats:
         if each.name == name if name is not None else each.extension == Path(output).suffix:
             return each

@@ -118,20 +118,28 @@ class JsonField:
         return self.value
 
 
+def json_field(content, what):
+    """The whole of a JSON file. Raises Error for content that is not this."""
+
+    def refuse(constant):
+        raise ValueError(f'{constant} is not a number')
+
+    try:
+        return JsonField(json.loads(content, parse_constant=refuse))
+    except (ValueError, RecursionError) as error:
+        raise Error(f'not {what}: {error}') from None
+
+
 def is_result(content):
     return content.lstrip().startswith(b'{')
 
 
 def parse(file, content):
     """The result in a file. Raises Error with one line naming the file and the field."""
-
-    def refuse(constant):
-        raise ValueError(f'{constant} is not a number')
-
     try:
-        whole = JsonField(json.loads(content, parse_constant=refuse))
-    except (ValueError, RecursionError) as error:
-        raise Error(f'{file}: not a result of parking_plan --json: {error}') from None
+        whole = json_field(content, 'a result of parking_plan --json')
+    except Error as error:
+        raise Error(f'{file}: {error}') from None
     try:
         version = whole.member('format')
         if version.value != FORMAT or isinstance(version.value, bool):

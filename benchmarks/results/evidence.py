@@ -32,6 +32,9 @@ class Evidence:
         self.trajectories, self.standstills = (
             {kind: self._plans(f'{name}-{kind}') for kind in SETS if f'{name}-{kind}' in self.steps}
             for name in ('trajectories', 'standstills'))
+        # Car -> plans of all scenes.
+        self.parkbench = {name.removeprefix('parkbench-'): self._plans(name, False)
+                          for name in self.steps if name.startswith('parkbench-') and 'scenes' not in name}
         self.checks = {each['name']: each for each in self._json('checks', 'checks.json').get('benchmarks', [])}
         self.troubles = self._table('troubles', 'troubles.md')
         self.slots = self._text('slots', 'car-slot-table.md')
@@ -50,13 +53,13 @@ class Evidence:
     def _json(self, step, name):
         return json.loads(self._text(step, name) or '{}')
 
-    def _plans(self, step):
-        """problem -> what parking_plan wrote of it, of the problems that are solved."""
+    def _plans(self, step, only_solved=True):
+        """problem -> what parking_plan wrote of it."""
         found = {}
         for file in sorted(glob.glob(os.path.join(self._raw, step, '*.json'))):
             with open(file, encoding='utf-8') as stream:
                 plan = json.load(stream)
-            if plan.get('status') == 'exact':
+            if plan.get('status') == 'exact' or not only_solved and 'status' in plan:
                 found[os.path.basename(file)[:-len('.json')]] = plan
         return found
 

@@ -19,6 +19,7 @@ HERE = os.path.join(ROOT, 'benchmarks', 'results')
 SCENARIOS = os.path.join(ROOT, 'benchmarks', 'scenarios')
 PROGRAMS = 'build/release/benchmarks/'  # as a reader calls them
 PLANNED = (0, 3, 4)  # statuses of parking_plan with a result, even without a path
+PARKBENCH_CARS = ('toyota_yaris', 'vw_golf8', 'mercedes_s_w223')  # small, medium, large
 DRIVEN = ('angled45', 'parallel', 'perpendicular', 'dead_end_aisle')  # with trouble
 
 
@@ -69,7 +70,9 @@ def scenario_files(folder):
 
 
 def steps_of(raw, programs, amount, data):
-    """All steps in their order; a generator, since the random queries must be drawn before they are listed."""
+    """All steps in their order; a generator, since the random queries must be drawn before they are listed.
+
+    data: benchmark -> folder with the user's copy of its cases."""
     def program(name):
         return os.path.join(programs, name)
 
@@ -89,8 +92,8 @@ def steps_of(raw, programs, amount, data):
     yield Step('queries', 'random queries are drawn', ' '.join([f'{PROGRAMS}parking_queries --output queries', *count]),
                [Job([program('parking_queries'), '--output', queries, *count], os.path.join(queries, 'index.json'))])
     sets = {'bundled': (SCENARIOS, 'benchmarks/scenarios'), 'random': (queries, 'queries')}
-    if data:
-        sets['tpcap'] = (data, 'FOLDER')
+    if 'tpcap' in data:
+        sets['tpcap'] = (data['tpcap'], 'FOLDER')
     for kind, (folder, shown) in sets.items():
         yield benchmark(f'comparison-{kind}', f'planners compared, {kind}', 'comparison.cfg', folder, shown, amount.time,
                         amount.runs[kind])
@@ -106,6 +109,8 @@ def steps_of(raw, programs, amount, data):
                 jobs.append(Job([program('parking_plan'), file, *options, '--json', output], output, fine=PLANNED))
             command = f'{PROGRAMS}parking_plan {shown}/NAME {" ".join(options)} --json FILE'
             yield Step(f'{name}-{kind}', f'{title}, {kind}', command, jobs, inputs=[folder])
+    if 'parkbench' in data:
+        yield from parkbench_steps(program, at, amount, data['parkbench'])
     options = ['--drives', str(amount.drives)]
     named = 'benchmarks/scenarios/{' + ','.join(DRIVEN) + '}.yaml'
     driven = [os.path.join(SCENARIOS, f'{name}.yaml') for name in DRIVEN]
@@ -119,6 +124,23 @@ def steps_of(raw, programs, amount, data):
                     amount.runs['bundled'])
     table = at('slots', 'car-slot-table.md')
     yield Step('slots', 'cars in slots', f'{PROGRAMS}car_slot_table FILE', [Job([program('car_slot_table'), table], table)])
+
+
+def parkbench_steps(program, at, amount, folder):
+    """Each scene becomes a scenario for each car, since the car at its goal stands over obstacles."""
+    options = ['--runs', str(amount.repeats), '--trajectory']
+    for car in PARKBENCH_CARS:
+        cases, converted, planned = at(f'parkbench-scenes-{car}', 'set'), [], []
+        for file in sorted(glob.glob(os.path.join(folder, '*.json'))):
+            name = os.path.splitext(os.path.basename(file))[0]
+            case, output = os.path.join(cases, name + '.yaml'), at(f'parkbench-{car}', name + '.json')
+            converted.append(Job([program('parking_convert'), file, case, '--vehicle', car], case))
+            planned.append(Job([program('parking_plan'), case, *options, '--json', output], output, fine=PLANNED))
+        yield Step(f'parkbench-scenes-{car}', f'scenes of ParkBench converted, {car}',
+                   f'{PROGRAMS}parking_convert FOLDER/NAME.json NAME.yaml --vehicle CAR', converted,
+                   inputs=[folder, os.path.join(ROOT, 'benchmarks', 'convert', 'parkbench.py')])
+        yield Step(f'parkbench-{car}', f'scenes of ParkBench planned, {car}',
+                   f'{PROGRAMS}parking_plan NAME.yaml {" ".join(options)} --json FILE', planned, inputs=[cases])
 
 
 def names_of_steps(data):

@@ -10,7 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from curves import step_curves  # noqa: E402
 from evidence import OURS, SETS, Variant, delays  # noqa: E402
-from formatting import shown, shown_time  # noqa: E402
+from formatting import shown, shown_in, shown_time  # noqa: E402
 from planner_statistics import median, quantile  # noqa: E402
 
 FIGURE = re.compile(r'(<!--figure ([\w.-]+)-->)(.*?)(<!--/figure-->)', re.DOTALL)
@@ -279,6 +279,46 @@ def trajectories(evidence, figures):
             markdown(['problems', 'arrived', 'touching', 'final error, cm', 'largest error, cm', 'step', '99 %'], drives)]
 
 
+PARKBENCH = ['## ParkBench', """ParkBench is a set of recorded scenes in which a car reverses into its place
+([scenes](https://github.com/dqm5rtfg9b-collab/Constrained_Parking_Scenarios); FOLDER is your own copy).
+
+- *Published, not measured here*: a learned policy surpasses classical planners "by +96% in success rate and +52% in
+  efficiency" (F. Tao and others, [arXiv 2601.22545](https://arxiv.org/abs/2601.22545), abstract).
+- *Measured here*: `improved_astar` with three cars of the catalogue. The scenes have no car, so the two differ in the car.
+
+Obstacles under the car at its goal, and outliers, are left out ([scenarios](scenarios.md#other-formats)). The tables show
+median and largest value of the solved scenes. *Planning* of a scene is the median of its calls, by the clock on the wall."""]
+
+
+def parkbench(evidence, figures):
+    if not evidence.parkbench:
+        return []
+
+    def spread(values, show):
+        return [show(quantile(values, share)) for share in (0.5, 1.0)]
+    paths, motions = [], []
+    for car, plans in sorted(evidence.parkbench.items()):
+        good = [plan for plan in plans.values() if plan['status'] == 'exact']
+        made = [plan['trajectory_optimization'] for plan in good if 'duration_s' in plan['trajectory_optimization']]
+        planning = [median(plan['planning_time_ms']) * 1e-3 for plan in good]
+        optimising, fallbacks = [each['time_ms'] * 1e-3 for each in made], sum(each['fallback'] for each in made)
+        solved = f'{len(good)} of {len(plans)}'
+        paths.append([car, solved, *spread(planning, shown_time),
+                      *spread([plan['length_m'] for plan in good], lambda length: shown_in(length, 'm')),
+                      *spread([plan['cusps'] for plan in good], lambda cusps: shown(cusps, 1))])
+        motions.append([car, f'{len(made)} of {len(plans)}', str(fallbacks),
+                        *spread([each['duration_s'] for each in made], lambda duration: shown_in(duration, 's')),
+                        *spread(optimising, shown_time)])
+        for name, value, text in (('solved', len(good) / len(plans), solved), ('fallbacks', fallbacks, str(fallbacks)),
+                                  ('slowest', quantile(planning, 1.0), paths[-1][3]),
+                                  ('slowest_trajectory', quantile(optimising, 1.0), motions[-1][-1])):
+            figures.add(f'parkbench.{car}.{name}', value, text, f'parkbench-{car}')
+    return [*PARKBENCH, *(f'`{command}`' for command in dict.fromkeys(step_commands(evidence, 'parkbench'))),
+            markdown(['car', 'solved', 'planning', 'slowest', 'length', 'longest', 'cusps', 'most'], paths),
+            'The trajectories along these paths:',
+            markdown(['car', 'made', 'fallback', 'duration', 'longest', 'optimising', 'slowest'], motions)]
+
+
 def troubles(evidence, figures):
     if len(evidence.troubles) < 2:
         return []
@@ -322,7 +362,7 @@ def provenance(evidence):
 
 def introduction(evidence):
     quick = any(step['amount'] == 'quick' for step in evidence.steps.values())
-    command = 'scripts/results' + (' --quick' if quick else '') + (' --data FOLDER' if 'tpcap' in evidence.comparisons else '')
+    command = 'scripts/results' + (' --quick' if quick else '') + (' --data FOLDER' if 'tpcap' in evidence.comparisons or evidence.parkbench else '')
     text = ['# Results',
             f'How well do planner, footprint checks, trajectories and drives perform? `{command}` measures and writes '
             'this page, its [attachments](results) and all figures that other pages quote.', provenance(evidence)]
@@ -424,7 +464,7 @@ def pages_of(evidence):
     page = introduction(evidence)
     parts = compared(evidence, figures)
     page += (COMPARED + parts + ['Each problem is in [problems](results/problems.md).']) if parts else []
-    for section in (repeated_calls, anytime, ablation, checks, trajectories, troubles, termination):
+    for section in (repeated_calls, anytime, ablation, checks, trajectories, troubles, parkbench, termination):
         page += section(evidence, figures)
     if evidence.slots:
         page.append('Which car parks in which slot, in how many stretches: [cars in slots](results/car-slot-table.md).')

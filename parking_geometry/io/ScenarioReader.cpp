@@ -33,19 +33,27 @@ namespace parking
             return text.find(':') == std::string::npos && std::filesystem::path(file).extension() == ".csv";
         }
 
-        /** Throws for scenario formats of other programs, whose beginnings are not valid YAML. */
+        /** Throws for scenario formats of other programs. */
         void refuseFormatsOfOthers(const std::string &file, const std::string &text)
         {
+            const auto holds = [&text](const char *part)
+            {
+                return text.find(part) != std::string::npos;
+            };
+            const char first = trimmed(text).front();
             const bool isMatlab = text.compare(0, 7, "MATLAB ") == 0;
-            if (!isMatlab && trimmed(text).front() != '<')
-                return;
-            if (!isMatlab && text.find("<svg") == std::string::npos && text.find(":svg") == std::string::npos)
+            const bool isSvg = first == '<' && (holds("<svg") || holds(":svg"));
+            const bool isParkBench = first == '{' && holds("\"NfmAggregatedPolygonObjects\"");
+            if (isMatlab || isSvg || isParkBench)
+            {
+                const std::string kind = isMatlab ? "a MATLAB" : isSvg ? "an SVG" : "a ParkBench";
+                throw Error(file + ": is " + kind + " file; make a scenario of it first: parking_convert " + file +
+                            " " + std::filesystem::path(file).replace_extension(".yaml").string() +
+                            (isSvg ? " --start X,Y,YAW --goal X,Y,YAW" : ""));
+            }
+            if (first == '<')
                 throw Error(file + ": is XML; supported are YAML scenarios and TPCAP cases (.csv), and " +
                             "parking_convert converts Bench-MR scenes (.svg) and CommonParking cases (.mat)");
-            throw Error(file + ": is " + (isMatlab ? "a MATLAB" : "an SVG") +
-                        " file; make a scenario of it first: parking_convert " + file + " " +
-                        std::filesystem::path(file).replace_extension(".yaml").string() +
-                        (isMatlab ? "" : " --start X,Y,YAW --goal X,Y,YAW"));
         }
 
         /** The scenario with the start and the goal of \e options. */

@@ -37,6 +37,18 @@ SCENE = '''<?xml version="1.0"?>
   </g>
 </svg>
 '''
+def parkbench_scene(obstacles, target=(1, 4, math.pi / 2), areas=False, origins=((10, -5), (9, -7))):
+    """A scene of ParkBench with these polylines."""
+    posture = {'m_pose': list(target), 'm_curvature': 0.0}
+    request = {'m_startPosture': {'m_pose': [-8.0, -3.0, 0.5], 'm_curvature': 0.0}}
+    request.update({'m_targetAreas': {'m_targetPosture': [posture]}} if areas else {'m_targetArea': {'m_targetPosture': posture}})
+    frame = {'PlanningRequest': request, 'NfmAggregatedPolygonObjects': [
+        {'nfmPolygonObjectNodes': [{'m_x': x, 'm_y': y, 'm_height': 'LOW'} for x, y in each]} for each in obstacles]}
+    if origins:
+        request['m_origin'], frame['m_nfmOrigin'] = map(list, origins)
+    return json.dumps({'CommonParameters': 'default', 'Frames': {'0': frame}})
+
+
 POSES = ('--start', '0,-1,0', '--goal', '15,-5,1.5')
 
 
@@ -162,17 +174,90 @@ class ProblemsTest(ConvertTest):
                 scipy.io.savemat('wrong.mat', {'caseData': case}, do_compression=compressed)
                 self.refused('wrong.mat', '--check', parts=['wrong.mat: ', part])
 
+    def test_scenes_of_parkbench(self):
+        car = ia.Vehicle('tpcap')
+        side, front, back = 0.5 * car.width, car.wheelbase + car.front_overhang, car.rear_overhang
+        # Relative to the goal. Under the car: a stop on both sides, one within it, and ones that enter it behind and ahead.
+        given = [[(-9, 7), (-9, 9), (-7, 9)], [(0, -2), (0, 2)], [(0, -0.5), (0, 0.5)], [(0, 0), (-3, 0)], [(3, 0), (6, 0)],
+                 [(-1, side + 0.05), (1, side + 0.05)]]
+        wanted = [[(-9, 7), (-9, 9)], [(-9, 9), (-7, 9)], [(0, -2), (0, -side - 0.1)], [(0, side + 0.1), (0, 2)],
+                  [(-back - 0.1, 0), (-3, 0)], [(front + 0.1, 0), (6, 0)], given[-1]]
+        for areas, origins, goal in ((False, ((10, -5), (9, -7)), (2, 6, 0.5)), (True, None, (1, 4, -2.0))):
+            def placed(points):
+                turn = np.exp(1j * goal[2])
+                return [(z.real, z.imag) for z in (complex(*goal[:2]) + turn * complex(*point) for point in points)]
+            target = np.subtract(goal, (1, 2, 0) if origins else 0).tolist()
+            self.write('scene.json', parkbench_scene(map(placed, given), target, areas, origins))
+            self.assertNotIn('collision', self.convert('scene.json', 'scene.yaml', '--check'))
+            scenario = ia.Scenario.read('scene.yaml')
+            np.testing.assert_allclose(scenario.start, (-7, -1, 0.5) if origins else (-8, -3, 0.5))
+            np.testing.assert_allclose(scenario.goals[0], goal)
+            self.assertEqual(len(scenario.polygons), len(wanted))
+            for polygon, segment in zip(scenario.polygons, wanted):
+                np.testing.assert_allclose(polygon, placed(segment), atol=1e-9)
+        self.write('scene.json', parkbench_scene([[(-1, 4), (3, 4)]], origins=None))  # a wheel stop
+        self.convert('scene.json', 'scene.yaml')
+        self.assertEqual(self.planned('scene.yaml')['status'], 'exact')
+
+    def test_a_larger_car_stands_over_more_obstacles_of_parkbench(self):
+        self.write('scene.json', parkbench_scene([[(0.05, 4), (0.05, 6)]], origins=None))  # 0.95 m from the axle's middle
+        for car, count in (('vw_golf8', 1), ('lincoln_mkz', 0)):
+            self.convert('scene.json', 'scene.yaml', '--vehicle', car)
+            self.assertEqual(len(ia.Scenario.read('scene.yaml').polygons), count, car)
+
+    def test_outliers_of_parkbench_are_left_out(self):
+        start = (-8, -3)
+        for direction, across in (((1, 0), (0, 1)), ((-1, 0), (0, 1)), ((0, 1), (1, 0)), ((0, -1), (1, 0))):
+            for away, ends, count in ((99.9, 1, 1), (100.1, 1, 0), (1000, 1, 0), (99.9, 150, 1)):
+                segment = [tuple(at + away * along + end * side for at, along, side in zip(start, direction, across))
+                           for end in (-ends, ends)]
+                self.write('scene.json', parkbench_scene([segment], origins=None))
+                self.convert('scene.json', 'scene.yaml')
+                self.assertEqual(len(ia.Scenario.read('scene.yaml').polygons), count, segment)
+
+    def test_scenes_of_parkbench_that_are_none(self):
+        whole = parkbench_scene([[(6, 0), (8, 1)]])
+        for old, new, part in (('"m_startPosture"', '"m_start"', 'Frames.0.PlanningRequest.m_startPosture is missing'),
+                               ('"m_targetArea"', '"m_target"', 'PlanningRequest.m_targetArea is missing'),
+                               ('[-8.0, -3.0, 0.5]', '[-8.0, -3.0]', 'm_pose is a list; it must be a list of 3 numbers'),
+                               ('[-8.0, ', '["x", ', "m_pose[0] is 'x'; it must be a finite number"),
+                               ('"m_x": 8', '"m_x": true', 'nfmPolygonObjectNodes[1].m_x is true'),
+                               ('"m_x": 8', '"m_x": NaN', 'not a scene of ParkBench: NaN is not a number'),
+                               (', {"m_x": 8, "m_y": 1, "m_height": "LOW"}', '', 'must be a list of two or more nodes'),
+                               ('"0"', '"1"', 'Frames.0 is missing'), ('[9, -7]', '[9]', 'm_nfmOrigin is a list'),
+                               ('[1, 4, ', '[1e7, 4, ', 'm from the start')):
+            self.assertIn(old, whole)
+            self.write('scene.json', whole.replace(old, new))
+            with self.subTest(part=part):
+                self.refused('scene.json', 'out.yaml', parts=['scene.json: ', part])
+        for length in range(whole.index('Objects"') + 9, len(whole), 11):
+            self.write('scene.json', whole[:length])
+            self.refused('scene.json', 'out.yaml', parts=['scene.json: not a scene of ParkBench: '])
+        self.write('scene.json', parkbench_scene([], areas=True).replace('[{"m_pose"', '[], "x": [{"m_pose"'))
+        self.refused('scene.json', 'out.yaml', parts=['m_targetPosture is an empty list; it must be a list of targets'])
+        self.write('case.csv', CASE)
+        self.refused('case.csv', 'out.json', parts=['.json'])  # read only
+        self.refused('case.csv', 'out', '--to', 'parkbench', parts=['parkbench'])
+
+    @unittest.skipUnless(os.path.isdir(os.path.join(SHARED_DATA, 'parkbench')), 'no scenes of ParkBench')
+    def test_every_scene_of_parkbench(self):
+        folder = os.path.join(SHARED_DATA, 'parkbench')
+        for name in sorted(os.listdir(folder)):
+            if name.endswith('.json'):
+                self.convert(os.path.join(folder, name), 'out.yaml', '--check')
+
     def test_other_programs_name_the_command_that_helps(self):
         self.write('case.csv', CASE)
         self.convert('case.csv', 'Case07.mat')
         self.write('scene.svg', SCENE)
-        for name, command in (('Case07.mat', 'parking_convert Case07.mat Case07.yaml'),
+        self.write('scene.json', parkbench_scene([]))
+        for name, command in (('scene.json', 'parking_convert scene.json scene.yaml'), ('Case07.mat', 'parking_convert Case07.mat Case07.yaml'),
                               ('scene.svg', 'parking_convert scene.svg scene.yaml --start X,Y,YAW --goal X,Y,YAW')):
             self.refused_plan(name, parts=[f'{name}: is a', command])
             self.write('a.cfg', f'[problem]\nscenario = {name}\n[benchmark]\nrun_count = 1\n[planner]\nimproved_astar=\n')
             self.refused_benchmark('a.cfg', '--output', 'out', parts=[command])
             self.convert(*command.replace('X,Y,YAW', '1,-9,0').split()[1:])
-            self.assertEqual(ia.Scenario.read(f'{name[:-4]}.yaml').name, name[:-4])
+            self.assertEqual(ia.Scenario.read(f'{name.split(".")[0]}.yaml').name, name.split('.')[0])
 
     def test_the_check_finds_what_is_wrong(self):
         self.write('case.csv', CASE.replace('8,1,-1.2', '3,3,0'))  # into the first obstacle

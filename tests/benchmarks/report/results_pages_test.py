@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import runpy
 import sys
 import unittest
 import xml.etree.ElementTree
@@ -14,7 +15,7 @@ sys.path.insert(0, os.path.join(made_results.REPORT, '..', 'results'))
 import pages  # noqa: E402
 from curves import round_ticks, step_points, time_label  # noqa: E402
 from evidence import Evidence  # noqa: E402
-from measure import Failure, Job, Step, run_step  # noqa: E402
+from measure import PARKBENCH_CARS, QUICK, Failure, Job, Step, run_step, steps_of  # noqa: E402
 
 
 def plan(first, later, duration, travel):
@@ -150,6 +151,26 @@ class Pages(made_results.FolderTest):
         self.assertEqual(rows['RRTstar'], ['3', '2.00 ms', '4.00 ms'])
         self.assertEqual(figures['troubles.parked']['value'], 8)
 
+    def test_parkbench(self):
+        for car in ('a', 'b'):
+            self.step(f'parkbench-{car}')
+        self.step('parkbench-scenes-a')
+        self.write('parkbench-a/1.json', {**plan(6.0, [2.0, 3.0], 10.0, 10.2), 'length_m': 12.0})
+        self.write('parkbench-a/2.json', {**plan(9.0, [9.0, 9.0], 30.0, 10.2), 'length_m': 18.0})
+        self.write('parkbench-a/3.json', {'status': 'timeout', 'planning_time_ms': [90.0]})
+        self.write('parkbench-b/1.json', {'status': 'timeout', 'planning_time_ms': [90.0]})
+        made, figures, _ = self.made()
+        page = made['docs/results.md']
+        lines = [[cell.strip() for cell in line.strip('|').split('|')] for line in page.splitlines()
+                 if line.startswith(('| a ', '| b '))]
+        self.assertEqual(lines, [['a', '2 of 3', '6.00 ms', '9.00 ms', '15.0 m', '18.0 m', '2', '2'], ['b', '0 of 1', *'––––––'],
+                                 ['a', '2 of 3', '0', '20.0 s', '30.0 s', '20.0 ms', '20.0 ms'], ['b', '0 of 1', '0', *'––––']])
+        self.assertEqual([figures['parkbench.a.slowest'][name] for name in ('text', 'command')],
+                         ['9.00 ms', 'command of parkbench-a'])
+        self.assertNotIn('parkbench.b.slowest', figures)
+        for part in ('`scripts/results --data FOLDER`', '`command of parkbench-scenes-a`', 'not measured here', 'abstract'):
+            self.assertIn(part, page)
+
     def test_pages_are_filled(self):
         figures = {'a.b': {'value': 1.4, 'text': '1.4 ms', 'command': 'run'}}
         documents = {'README.md': 'x\n<!-- results -->\nold\n<!-- /results -->\ny\n',
@@ -173,6 +194,36 @@ class Pages(made_results.FolderTest):
 
 
 class Steps(made_results.FolderTest):
+    def test_copies_of_other_benchmarks_are_found(self):
+        results = os.path.join(made_results.REPORT, '..', 'results', 'make_results')
+        folders_of_cases = runpy.run_path(results)['folders_of_cases']
+
+        def found(*names):
+            folder = self.path('-'.join(names).replace('/', '-'))
+            for name in names:
+                os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+                with open(os.path.join(folder, name), 'w', encoding='utf-8'):
+                    pass
+            return {benchmark: os.path.relpath(at, folder) for benchmark, at in folders_of_cases(folder).items()}
+        self.assertEqual(found('Case1.csv', 'poses.json'), {'tpcap': '.'})
+        self.assertEqual(found('tpcap/Case1.csv', 'rear_in/1.json'), {'tpcap': 'tpcap', 'parkbench': 'rear_in'})
+        self.assertEqual(found('parkbench/1.json'), {'parkbench': 'parkbench'})
+        with self.assertRaisesRegex(Exception, 'no folder parkbench or rear_in'):
+            found('poses.json')
+
+    def test_each_scene_of_parkbench_is_planned_with_each_car(self):
+        os.makedirs(self.path('scenes'))
+        for name in ('1.json', '2.json', 'README.md'):
+            with open(self.path('scenes/' + name), 'w', encoding='utf-8'):
+                pass
+        steps = {step.name: step for step in steps_of('raw', 'programs', QUICK, {'parkbench': self.path('scenes')})}
+        self.assertFalse(any('tpcap' in name for name in steps))
+        for car in PARKBENCH_CARS:
+            written = [job.argv[2] for job in steps[f'parkbench-scenes-{car}'].jobs]
+            self.assertEqual([os.path.basename(file) for file in written], ['1.yaml', '2.yaml'])
+            self.assertEqual([job.argv[1] for job in steps[f'parkbench-{car}'].jobs], written)
+            self.assertTrue(all(job.argv[-1] == car for job in steps[f'parkbench-scenes-{car}'].jobs))
+
     def step(self, *command, fine=(0,)):
         output = self.path('some/output')
         return Step('some', 'something', 'command', [Job(['/bin/sh', '-c', *command], output, True, fine)])

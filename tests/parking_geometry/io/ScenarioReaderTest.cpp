@@ -217,6 +217,9 @@ TEST_F(ReaderTest, NamesTheCommandForFormatsOfOthers)
     for (const std::string begin : {"<svg>", "\n <?xml version=\"1.0\"?><svg>", "\xEF\xBB\xBF<svg>"})
         expectError([&] { read(begin, "scene.svg"); },
                     {"scene.svg: is an SVG file", "scene.yaml --start X,Y,YAW --goal X,Y,YAW"});
+    expectError([&] { read("\n{\"Frames\": {\"0\": {\"NfmAggregatedPolygonObjects\": []}}}", "scene.json"); },
+                {"scene.json: is a ParkBench file", "parking_convert " + folder_.path("scene.json"), "scene.yaml"});
+    EXPECT_EQ(read("{start: [0, 0, 0], goal: [1, 0, 0], polygons: []}", "a.yaml").goals.size(), 1u);  // YAML, too
     for (const std::string begin : {"<?xml version=\"1.0\"?>\n<osm version=\"0.6\">", "<OpenDRIVE>", "<commonRoad/>"})
         expectError([&] { read(begin, "lot.xodr"); }, {"lot.xodr: is XML", "YAML scenarios", ".csv", ".svg", ".mat"});
 }
