@@ -145,6 +145,7 @@ namespace ompl::geometric
 
         void declareParameters();
         void requireFittingModel() const;
+        parking::PlannerParameters searchParameters() const;
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
         bool readStarts();
