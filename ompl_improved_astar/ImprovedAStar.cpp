@@ -51,6 +51,7 @@ namespace ompl::geometric
         using parking::search::MotionEnvironment;
         using parking::search::PathPlanner;
         using parking::search::PlanOutcome;
+        using parking::search::SearchStatistics;
 
         constexpr double FARTHEST_DUBINS = 1e7;  // coordinates in turning radii
         constexpr double SAME_POSE = 1e-12;      // metres and radians
@@ -173,6 +174,8 @@ namespace ompl::geometric
         base::Cost bestCost{HUGE_VAL};              ///< of path
         base::OptimizationObjectivePtr objective;   ///< that bestCost is of; none: length and proximity, in metres
         base::OptimizationObjectivePtr unmapped;    ///< the last one that was logged as not minimised by the search
+        bool isCompared{false};                     ///< whether a path by the planner's own weights was offered, too
+        SearchStatistics comparison;                ///< of the search for that path
         std::vector<Pose> solution;                 ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;               ///< that of the planner
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
@@ -234,6 +237,8 @@ namespace ompl::geometric
             solution.clear();
             bestCost = base::Cost(HUGE_VAL);
             objective.reset();
+            isCompared = false;
+            comparison = {};
         }
 
         /** \brief Frees the states that planner data was given. */
@@ -582,9 +587,12 @@ namespace ompl::geometric
         return query_->planner.search().statistics().loadingTime;
     }
 
-    parking::search::SearchStatistics ImprovedAStar::statistics() const
+    SearchStatistics ImprovedAStar::statistics() const
     {
-        return query_->begun ? query_->planner.statistics() : parking::search::SearchStatistics();
+        SearchStatistics sum = query_->comparison;
+        if (query_->begun)
+            sum += query_->planner.statistics();
+        return sum;
     }
 
     std::uint64_t ImprovedAStar::checkedStates() const
@@ -692,6 +700,28 @@ namespace ompl::geometric
         return objective && objective->isSatisfied(cost);
     }
 
+    /** The path by the weights of an objective must not cost more than that by the planner's own, and may do so in
+        another local optimum. */
+    void ImprovedAStar::offerPathOfOwnWeights(const parking::search::StopFunction &stop,
+                                              const parking::search::ImprovementFunction &improved)
+    {
+        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
+        if (query_->parameters == parameters_ || query_->isCompared || objective->isSatisfied(query_->bestCost))
+            return;
+        query_->isCompared = true;
+        PathPlanner own;
+        MotionEnvironment *environment = query_->footprintEnvironment.get();
+        own.begin(environment != nullptr ? *environment : *query_->stateEnvironment, parameters_, query_->car);
+        for (const Pose &start : query_->starts)
+            own.addStart(start);
+        for (const Pose &goal : query_->goals)
+            own.addGoal(goal);
+        own.solve(stop, {});
+        query_->comparison = own.statistics();
+        if (own.hasSolution())
+            query_->planner.offer(own.bestPath(), stop, improved);
+    }
+
     ob::PlannerStatus ImprovedAStar::search(const ob::PlannerTerminationCondition &ptc)
     {
         const auto stop = [this, &ptc]
@@ -708,6 +738,8 @@ namespace ompl::geometric
         // That one goal cannot be reached says nothing of those that nobody has asked for yet.
         while (outcome == Outcome::Exhausted && readAnotherGoal(ptc))
             outcome = query_->planner.solve(stop, improved);
+        if (outcome == Outcome::Solved && !parameters_.anytime)
+            offerPathOfOwnWeights(stop, improved);
         if (outcome == Outcome::Exhausted && mayHaveOtherGoals())
             query_->reason = "none of the " + std::to_string(query_->goals.size()) +
                              " goals that were sampled can be reached; others may be";

@@ -341,7 +341,8 @@ TEST(PlannerObjectives, theSearchUsesTheWeightsOfTheObjective)
     for (const auto &[kind, model] : VARIANTS)
         for (const bool isLength : {true, false})
         {
-            PlanningProblem problem(kind, SLOT_SCENE, model), other(kind, SLOT_SCENE, model);
+            const std::string anytime = std::string(model) + " anytime=1";
+            PlanningProblem problem(kind, SLOT_SCENE, anytime), other(kind, SLOT_SCENE, anytime);
             const PlannerParameters parameters = isLength ? weights(0.0, 0.0, 0.0, 0.0, 0.0) : HEAVY;
             Objective objective = driving(problem, parameters);
             if (isLength)
@@ -349,16 +350,43 @@ TEST(PlannerObjectives, theSearchUsesTheWeightsOfTheObjective)
             other.set(set(parameters));
             // Set after a first query, which has found another path.
             const Pose goal{8.0, -3.0, 0.5 * parking::PI};
-            ASSERT_EQ(problem.from({AISLE}).to({goal}).solve(), Status::EXACT_SOLUTION);
+            ASSERT_EQ(problem.from({AISLE}).to({goal}).solveWithPolls(2000), Status::EXACT_SOLUTION);
             problem.pdef->setOptimizationObjective(objective);
             problem.pdef->clearSolutionPaths();
-            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            ASSERT_EQ(other.from({AISLE}).to({goal}).solve(), Status::EXACT_SOLUTION);
+            ASSERT_EQ(problem.solveWithPolls(2000), Status::EXACT_SOLUTION);
+            ASSERT_EQ(other.from({AISLE}).to({goal}).solveWithPolls(2000), Status::EXACT_SOLUTION);
             EXPECT_TRUE(areEqual(problem.poses(), other.poses()));
             problem.expectSound();
             EXPECT_NEAR(problem.bestCost(), pathCost(problem.path(), objective).value(), 1e-5);
             EXPECT_NEAR(problem.pdef->getSolutions().front().cost_.value(), problem.bestCost(), 1e-5);
         }
+}
+
+TEST(PlannerObjectives, pathsCostAtMostAsMuchAsWithoutThem)
+{
+    int cheaper = 0;
+    for (const Space kind : {Space::SE2, Space::ReedsShepp, Space::Dubins})
+        for (const Pose &goal : {SLOT, Pose{0.0, 3.5, 0.5 * parking::PI}, RIGHT, Pose{6.0, -3.0, 3.0}})
+            for (const bool isLength : {true, false})
+            {
+                if (kind == Space::Dubins && goal.y == SLOT.y)
+                    continue;  // entered in reverse
+                PlanningProblem problem(kind, SLOT_SCENE), unset(kind, SLOT_SCENE);
+                Objective objective = driving(problem, HEAVY);
+                if (isLength)
+                    objective = std::make_shared<Length>(problem.si);
+                problem.pdef->setOptimizationObjective(objective);
+                ASSERT_EQ(problem.from({AISLE}).to({goal}).solve(), Status::EXACT_SOLUTION);
+                ASSERT_EQ(unset.from({AISLE}).to({goal}).solve(), Status::EXACT_SOLUTION);
+                const double cost = pathCost(problem.path(), objective).value(),
+                             before = pathCost(unset.path(), objective).value();
+                EXPECT_LE(cost, before + 1e-5);
+                cheaper += cost < before - 1e-3 ? 1 : 0;
+                problem.expectSound();
+                EXPECT_GT(problem.planner->statistics().expanded, 0u);
+                EXPECT_GE(problem.planner->suboptimalityBound(), 1.0);
+            }
+    EXPECT_GT(cheaper, 5);
 }
 
 TEST(PlannerObjectives, theCostOfAPathIsThatOfTheSearch)
