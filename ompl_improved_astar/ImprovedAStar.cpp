@@ -1,5 +1,7 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
+#include "ompl_improved_astar/DrivingCostObjective.h"
+#include "ompl_improved_astar/ExactType.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
@@ -34,7 +36,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,7 @@ namespace ompl::geometric
         using parking::search::MotionEnvironment;
         using parking::search::PathPlanner;
         using parking::search::PlanOutcome;
+        using parking::search::SearchStatistics;
 
         constexpr double FARTHEST_DUBINS = 1e7;  // coordinates in turning radii
         constexpr double SAME_POSE = 1e-12;      // metres and radians
@@ -57,14 +59,6 @@ namespace ompl::geometric
         constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
         constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
         constexpr unsigned int GOAL_ATTEMPTS = 1000;     // samples of a region for a first valid or reachable goal
-
-        /** The object if it is of just this class: one that is derived from it may say something else. */
-        template <class Class, class Base>
-        const Class *exactly(const std::shared_ptr<Base> &object)
-        {
-            const Base *known = object.get();
-            return known != nullptr && typeid(*known) == typeid(Class) ? static_cast<const Class *>(known) : nullptr;
-        }
 
         /** Whether the goals are a list, or few enough to be read as one. Large finite numbers of samples, such as
             INT_MAX, stand for a continuous region. */
@@ -160,7 +154,7 @@ namespace ompl::geometric
         CarInSpace car;                             ///< what the planner has to know of car and space
         bool turnsOnTheSpot{false};                 ///< the motion model's paths do
         bool begun{false};                          ///< whether the planner was told of this query
-        parking::PlannerParameters parameters;      ///< those that the query was begun with
+        parking::PlannerParameters parameters;      ///< of the search, with the weights of the objective
         base::GoalPtr goal;                         ///< the one that the query was begun for
         base::StateValidityCheckerPtr checker;      ///< likewise; the environments ask it
         base::MotionValidatorPtr validator;         ///< likewise
@@ -179,6 +173,9 @@ namespace ompl::geometric
         std::vector<Pose> states;                   ///< of it, for OMPL
         base::Cost bestCost{HUGE_VAL};              ///< of path
         base::OptimizationObjectivePtr objective;   ///< that bestCost is of; none: length and proximity, in metres
+        base::OptimizationObjectivePtr unmapped;    ///< the last one that was logged as not minimised by the search
+        bool isCompared{false};                     ///< whether a path by the planner's own weights was offered, too
+        SearchStatistics comparison;                ///< of the search for that path
         std::vector<Pose> solution;                 ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;               ///< that of the planner
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
@@ -240,6 +237,8 @@ namespace ompl::geometric
             solution.clear();
             bestCost = base::Cost(HUGE_VAL);
             objective.reset();
+            isCompared = false;
+            comparison = {};
         }
 
         /** \brief Frees the states that planner data was given. */
@@ -367,20 +366,35 @@ namespace ompl::geometric
         expanded_ = 0;
     }
 
+    parking::PlannerParameters ImprovedAStar::searchParameters() const
+    {
+        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
+        if (!objective)
+            return parameters_;
+        const std::optional<parking::PlannerParameters> mapped = parking::parametersFor(objective, parameters_);
+        if (!mapped && query_->unmapped != objective)
+        {
+            OMPL_DEBUG("%s: the search does not minimise the objective '%s', which is evaluated for each path found",
+                       getName().c_str(), objective->getDescription().c_str());
+            query_->unmapped = objective;
+        }
+        return mapped.value_or(parameters_);
+    }
+
     void ImprovedAStar::prepareQuery()
     {
         if (query_->begun)
             return;
         requireFittingModel();
         query_->begun = true;
-        query_->parameters = parameters_;
+        query_->parameters = searchParameters();
         query_->goal = pdef_->getGoal();
         const parking::Box bounds = parking::spaceBounds(*si_->getStateSpace());
         const double radius = query_->turningRadius();
         query_->checker = si_->getStateValidityChecker();
         query_->validator = si_->getMotionValidator();
-        const auto *circle = exactly<parking::CircleValidityChecker>(query_->checker);
-        const auto *footprint = exactly<parking::FclFootprintChecker>(query_->checker);
+        const auto *circle = parking::exactly<parking::CircleValidityChecker>(query_->checker);
+        const auto *footprint = parking::exactly<parking::FclFootprintChecker>(query_->checker);
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
             si_, std::min(parking::CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
@@ -403,7 +417,7 @@ namespace ompl::geometric
             const parking::FootprintChecker &checker = footprint->footprint();
             car = parking::search::carInSpace(checker.vehicle(), checker.margin(), bounds);
             // The motion validator has the last word unless it asks the same questions of the same checker.
-            const auto *validator = exactly<parking::SweptMotionValidator>(query_->validator);
+            const auto *validator = parking::exactly<parking::SweptMotionValidator>(query_->validator);
             // So far from the origin OMPL's Dubins curve between two states of a path may be another one.
             const double farthest = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
             const bool mayDeviate =
@@ -421,7 +435,7 @@ namespace ompl::geometric
         car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
         try
         {
-            query_->planner.begin(*environment, parameters_, car);
+            query_->planner.begin(*environment, query_->parameters, car);
         }
         catch (const parking::Error &error)
         {
@@ -542,7 +556,7 @@ namespace ompl::geometric
 
     bool ImprovedAStar::isSameQuery() const
     {
-        return query_->goal == pdef_->getGoal() && query_->parameters == parameters_ &&
+        return query_->goal == pdef_->getGoal() && query_->parameters == searchParameters() &&
                query_->checker == si_->getStateValidityChecker() && query_->validator == si_->getMotionValidator() &&
                extends(storedStarts(*pdef_), query_->storedStarts) &&
                extends(storedGoals(*pdef_->getGoal()), query_->storedGoals);
@@ -573,9 +587,12 @@ namespace ompl::geometric
         return query_->planner.search().statistics().loadingTime;
     }
 
-    parking::search::SearchStatistics ImprovedAStar::statistics() const
+    SearchStatistics ImprovedAStar::statistics() const
     {
-        return query_->begun ? query_->planner.statistics() : parking::search::SearchStatistics();
+        SearchStatistics sum = query_->comparison;
+        if (query_->begun)
+            sum += query_->planner.statistics();
+        return sum;
     }
 
     std::uint64_t ImprovedAStar::checkedStates() const
@@ -635,7 +652,7 @@ namespace ompl::geometric
     ob::Cost ImprovedAStar::costOf(const Path &path, const PathGeometric &geometric, double proximity) const
     {
         if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
-            return geometric.cost(objective);
+            return parking::pathCost(geometric, objective);
         // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
         // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
         // would look for each piece's shortest curve to find out what is known here.
@@ -683,6 +700,28 @@ namespace ompl::geometric
         return objective && objective->isSatisfied(cost);
     }
 
+    /** The path by the weights of an objective must not cost more than that by the planner's own, and may do so in
+        another local optimum. */
+    void ImprovedAStar::offerPathOfOwnWeights(const parking::search::StopFunction &stop,
+                                              const parking::search::ImprovementFunction &improved)
+    {
+        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
+        if (query_->parameters == parameters_ || query_->isCompared || objective->isSatisfied(query_->bestCost))
+            return;
+        query_->isCompared = true;
+        PathPlanner own;
+        MotionEnvironment *environment = query_->footprintEnvironment.get();
+        own.begin(environment != nullptr ? *environment : *query_->stateEnvironment, parameters_, query_->car);
+        for (const Pose &start : query_->starts)
+            own.addStart(start);
+        for (const Pose &goal : query_->goals)
+            own.addGoal(goal);
+        own.solve(stop, {});
+        query_->comparison = own.statistics();
+        if (own.hasSolution())
+            query_->planner.offer(own.bestPath(), stop, improved);
+    }
+
     ob::PlannerStatus ImprovedAStar::search(const ob::PlannerTerminationCondition &ptc)
     {
         const auto stop = [this, &ptc]
@@ -699,6 +738,8 @@ namespace ompl::geometric
         // That one goal cannot be reached says nothing of those that nobody has asked for yet.
         while (outcome == Outcome::Exhausted && readAnotherGoal(ptc))
             outcome = query_->planner.solve(stop, improved);
+        if (outcome == Outcome::Solved && !parameters_.anytime)
+            offerPathOfOwnWeights(stop, improved);
         if (outcome == Outcome::Exhausted && mayHaveOtherGoals())
             query_->reason = "none of the " + std::to_string(query_->goals.size()) +
                              " goals that were sampled can be reached; others may be";
@@ -795,7 +836,7 @@ namespace ompl::geometric
         {
             // Of a solution it is known already, and takes its time on a curve space.
             const bool known = !approximate && query_->objective == objective;
-            const ob::Cost cost = known ? query_->bestCost : path->cost(objective);
+            const ob::Cost cost = known ? query_->bestCost : parking::pathCost(*path, objective);
             solution.setOptimized(objective, cost, !approximate && objective->isSatisfied(cost));
         }
         pdef_->addSolutionPath(solution);

@@ -57,8 +57,15 @@ namespace ompl::geometric
         A call resumes the previous one, includes starts and goals that were added since, and returns a solution at
         least as good. Another problem definition, goal object, checker, motion validator or parameter value begins a
         new query, as clearQuery() does, and so do start states or goal states whose values have changed. Call
-        clearQuery() if the obstacles of the same checker have changed. Another objective recomputes the cost of the
-        solution.
+        clearQuery() if the obstacles of the same checker have changed.
+
+        \par Objectives
+
+        If the problem's objective is path length, a parking::DrivingCostObjective or a sum of these, the search
+        minimises it; see parking::parametersFor(). Without `anytime` the planner then also searches with its own
+        weights, so that the path costs at most as much as the one without an objective, unless the termination
+        condition ends planning before. Any other objective, and each threshold, is evaluated for each path found. An
+        objective with other weights begins a new query; any other one recomputes the cost of the solution.
 
         \par Threads
 
@@ -145,6 +152,7 @@ namespace ompl::geometric
 
         void declareParameters();
         void requireFittingModel() const;
+        parking::PlannerParameters searchParameters() const;
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
         bool readStarts();
@@ -159,6 +167,8 @@ namespace ompl::geometric
         bool addGoal(const parking::Pose &pose);
         bool mayHaveOtherGoals() const;
         bool readAnotherGoal(const base::PlannerTerminationCondition &ptc);
+        void offerPathOfOwnWeights(const parking::search::StopFunction &stop,
+                                   const parking::search::ImprovementFunction &improved);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc,
                                      const parking::search::StopFunction &stop);

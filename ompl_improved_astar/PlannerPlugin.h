@@ -13,8 +13,9 @@ namespace parking
         std::string name;                       ///< in .cfg files and for --planner: letters, digits and _ . + -
         std::string summary;                    ///< one line for --help
         ompl::base::PlannerAllocator allocate;  ///< makes the planner; must not be empty
-        /** Whether the planner improves its solution until the time limit. It then receives path length as its
-            objective and should call isSatisfied() for each better solution, which records cost over time. */
+        /** Whether the planner improves its solution until the time limit. It then receives an objective, path
+            length unless the comparison sets another one, and should call isSatisfied() for each better solution, which
+           records cost over time. */
         bool optimizing{false};
     };
 

@@ -7,6 +7,7 @@
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/system/ProcessorTime.h"
+#include "ompl_improved_astar/DrivingCostObjective.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
@@ -117,6 +118,12 @@ namespace parking
             record.set(prefix + "jerk", frames.meanJerk);
         }
 
+        /** The path in the problem definition, whose type MeasuredPlanner has checked. */
+        const ompl::geometric::PathGeometric &solutionOf(const PreparedPlanner &prepared)
+        {
+            return static_cast<const ompl::geometric::PathGeometric &>(*prepared.problem()->getSolutionPath());
+        }
+
         /** OMPL's simplification, applied to the solution in the problem definition. */
         void simplify(RunRecord &record, const Problem &problem, const PreparedPlanner &prepared, double timeLimit)
         {
@@ -124,9 +131,7 @@ namespace parking
             prepared.setup->simplifySolution(SIMPLIFY_SHARE * timeLimit);
             record.set("simplification time",
                        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-            const auto *solution =
-                dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
-            putPath(record, "simplified ", readPath(problem, *solution, record.exact));
+            putPath(record, "simplified ", readPath(problem, solutionOf(prepared), record.exact));
         }
 
         /** The paper's metrics of the drive. */
@@ -467,6 +472,8 @@ namespace parking
             return;
         putPath(record, "", *run.path);
         putMetrics(record, world, *run.path);
+        if (const ob::OptimizationObjectivePtr objective = world.objective(); objective && run.hasValidPath())
+            record.set("path cost", pathCost(solutionOf(prepared), objective).value());
         record.set("distance to goal", run.goalDistance);
         record.hasPath = true;
         record.path = run.path->path;

@@ -272,11 +272,7 @@ namespace parking
             {"volume.min.y", into(&Problems::minY, finiteNumber)},
             {"volume.max.x", into(&Problems::maxX, finiteNumber)},
             {"volume.max.y", into(&Problems::maxY, finiteNumber)},
-            {"objective",
-             [](Problems &, Text key, Text value)
-             {
-                 choiceNamed(key, value, {"length"});
-             }},
+            {"objective", intoSettings(&Settings::objective, ofValue(objectiveByName))},
             {"objective.threshold", intoSettings(&Settings::threshold, notNegative)},
             {"threshold",
              [](Problems &, Text key, Text value)

@@ -88,6 +88,8 @@ namespace parking
                                toString(options.settings.footprint) + "/" +
                                formatNumber(options.settings.circleRadius) + "/" +
                                formatNumber(options.settings.threshold) + "/" + options.sampler + "/";
+            if (options.settings.objective != ObjectiveKind::Unset)
+                text += toString(options.settings.objective) + "/";
             for (const std::optional<double> &bound : {options.minX, options.minY, options.maxX, options.maxY})
                 text += (bound ? formatNumber(*bound) : "") + ",";
             for (const std::optional<Pose> &pose : {options.start, options.goal})
@@ -199,6 +201,8 @@ namespace parking
             if (options.settings.footprint != common.settings.footprint ||
                 options.settings.circleRadius != common.settings.circleRadius)
                 suffix += "_" + toString(options.settings.footprint);
+            if (options.settings.objective != common.settings.objective)
+                suffix += "_" + toString(options.settings.objective);
             if (options.vehicle != common.vehicle)
                 suffix += "_" + options.vehicle;
             return suffix.empty() ? "_variant" : suffix;

@@ -18,8 +18,8 @@ namespace parking
     {
         constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
         constexpr double ROUNDING_TURN = 1e-9;  // radians; a smaller difference is rounding of headings
-        constexpr double SHORTEST_PIECE = 1e-7;  // metres; a shorter piece is rounding of a curve's formula
-        constexpr double SAME = 1e-6;            // metres and radians between a pose and the goal that it equals
+        constexpr double SHORTEST_LINE = 1e-7;  // metres; a shorter line is rounding
+        constexpr double SAME = 1e-6;           // metres and radians between a pose and the goal that it equals
 
         std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
         {
@@ -34,14 +34,8 @@ namespace parking
             Path arcs;
             const std::vector<const ompl::base::State *> states = statesOf(path);
             arcs.start = poseOf(states.front());
-            ReedsSheppCurve curve;
             for (std::size_t i = 1; i < states.size(); ++i)
-            {
-                problem.curveSpace().curve(states[i - 1], states[i], curve);
-                for (std::size_t k = 0; k < curve.count; ++k)
-                    if (std::abs(curve.pieces[k].length) >= SHORTEST_PIECE)
-                        arcs.append(curve.pieces[k]);
-            }
+                problem.curveSpace().append(states[i - 1], states[i], arcs);
             return arcs;
         }
 
@@ -80,7 +74,7 @@ namespace parking
             {
                 const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
                 const double length = positionDistance(to, from);
-                if (length < SHORTEST_PIECE)
+                if (length < SHORTEST_LINE)
                 {
                     turnTo(from.yaw, to.yaw);
                     continue;

@@ -1,5 +1,6 @@
 #include "benchmarks/plan/Problem.h"
 
+#include "ompl_improved_astar/DrivingCostObjective.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
@@ -126,6 +127,19 @@ namespace parking
         throw Error(unknownName("footprint", name, {"rectangle", "circle"}));
     }
 
+    std::string toString(ObjectiveKind objective)
+    {
+        return objective == ObjectiveKind::Length ? "length" : objective == ObjectiveKind::Driving ? "driving" : "";
+    }
+
+    ObjectiveKind objectiveByName(const std::string &name)
+    {
+        for (const ObjectiveKind kind : {ObjectiveKind::Length, ObjectiveKind::Driving})
+            if (toString(kind) == name)
+                return kind;
+        throw Error(unknownName("objective", name, {"length", "driving"}));
+    }
+
     void checkSettings(const ProblemSettings &settings)
     {
         if (!(std::isfinite(settings.circleRadius) && settings.circleRadius >= 0.0))
@@ -229,6 +243,15 @@ namespace parking
         return dynamic_cast<ompl::geometric::ImprovedAStar *>(&planner->wrapped());
     }
 
+    ob::OptimizationObjectivePtr Problem::objective() const
+    {
+        if (settings_.objective == ObjectiveKind::Length)
+            return std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+        if (settings_.objective == ObjectiveKind::Driving)
+            return std::make_shared<DrivingCostObjective>(si_);
+        return nullptr;
+    }
+
     PreparedPlanner Problem::prepare(const PlannerEntry &entry, const PlannerSettings &settings) const
     {
         PreparedPlanner prepared;
@@ -247,25 +270,35 @@ namespace parking
         if (prepared.improved() != nullptr && isDrivable())
             requireUsedRadius(entry.name, settings, *this);
         applySettings(*planner, allSettings(entry, settings));
+        const std::shared_ptr<SolveRecord> &record = prepared.planner->record();
+        ob::OptimizationObjectivePtr objective = this->objective();
+        prepared.planner->setObjective(objective);
         if (entry.optimizing)
         {
-            const auto objective = std::make_shared<RecordingObjective>(si_, prepared.planner->record());
-            objective->setCostThreshold(ob::Cost(settings_.threshold));
-            prepared.setup->setOptimizationObjective(objective);
+            using Length = RecordingObjective<ob::PathLengthOptimizationObjective>;
+            using Driving = RecordingObjective<DrivingCostObjective>;
+            if (settings_.objective == ObjectiveKind::Driving)
+                objective = std::make_shared<Driving>(si_, record);
+            else
+                objective = std::make_shared<Length>(si_, record);
         }
         else
         {
             // A planner that improves paths without this objective defines itself when to stop (improved_astar with
             // `anytime`).
             prepared.problem()->setIntermediateSolutionCallback(
-                [record = prepared.planner->record()](const ob::Planner *, const std::vector<const ob::State *> &,
-                                                      ob::Cost cost) { record->note(cost.value()); });
-            if (settings_.threshold > 0.0 && isOn(*planner, "anytime"))
-            {
-                const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
-                objective->setCostThreshold(ob::Cost(settings_.threshold));
-                prepared.setup->setOptimizationObjective(objective);
-            }
+                [record](const ob::Planner *, const std::vector<const ob::State *> &, ob::Cost cost)
+                { record->note(cost.value()); });
+            const bool stops = settings_.threshold > 0.0 && isOn(*planner, "anytime");
+            if (stops && !objective)
+                objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+            else if (!stops && prepared.improved() == nullptr)
+                objective.reset();  // with one, some planners to the first solution use up their time limit
+        }
+        if (objective)
+        {
+            objective->setCostThreshold(ob::Cost(settings_.threshold));
+            prepared.setup->setOptimizationObjective(objective);
         }
         prepared.setup->setPlanner(prepared.planner);
         try
@@ -317,7 +350,7 @@ namespace parking
         planner->setName(entry.name);
         applySettings(*planner, allSettings(entry, settings));
         if (improved->parameters().motionModel != "car")
-            suitable = {SpaceKind::SE2, FootprintKind::Circle, 0.0, 0.0};
+            suitable = {SpaceKind::SE2, FootprintKind::Circle};
         return suitable;
     }
 

@@ -30,21 +30,32 @@ namespace parking
         Circle      ///< a disc round the rear axle at any heading: the paper's approximation
     };
 
+    /** \brief Cost that planners minimise. */
+    enum class ObjectiveKind
+    {
+        Unset,   ///< path length for planners that improve paths; others minimise what they minimise by themselves
+        Length,  ///< path length
+        Driving  ///< DrivingCostObjective with default weights
+    };
+
     /** \brief State space and footprint in which a planner solves a scenario. */
     struct ProblemSettings
     {
         SpaceKind space{SpaceKind::ReedsShepp};             ///< curves that join states
         FootprintKind footprint{FootprintKind::Rectangle};  ///< shape that must stay free of obstacles
         double circleRadius{0.0};                           ///< radius in metres; 0: half of the car's width
-        double threshold{0.0};  ///< metres; anytime planners stop at a shorter path; 0: none
+        ObjectiveKind objective{ObjectiveKind::Unset};      ///< cost that planners minimise
+        double threshold{0.0};  ///< metres; anytime planners stop at a path that costs less; 0: none
     };
 
-    /** \brief Names in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle. The readers throw
-        parking::Error listing the known names for any other. @{ */
+    /** \brief Names in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle; length, driving. The
+        readers throw parking::Error listing the known names for any other. @{ */
     std::string toString(SpaceKind space);
     std::string toString(FootprintKind footprint);           ///< rectangle or circle
     SpaceKind spaceByName(const std::string &name);          ///< of reeds_shepp, dubins or se2
     FootprintKind footprintByName(const std::string &name);  ///< of rectangle or circle
+    std::string toString(ObjectiveKind objective);           ///< length or driving; empty: unset
+    ObjectiveKind objectiveByName(const std::string &name);  ///< of length or driving
     /** @} */
 
     /** \brief Throws parking::Error for a radius that is not positive, and for a circle in a space of curves. */
@@ -92,6 +103,9 @@ namespace parking
 
         /** \brief Radius of the disc in metres; 0 for a rectangle. */
         double circleRadius() const;
+
+        /** \brief The objective of the settings, without the threshold; null if it is unset. */
+        ompl::base::OptimizationObjectivePtr objective() const;
 
         /** \brief Whether the car can drive the space's motions. */
         bool isDrivable() const
@@ -142,8 +156,10 @@ namespace parking
 
         /** \brief A new instance of a planner with a problem definition and a goal of its own.
 
-            Problem definitions are not shared: RRTstar::setup() stores an objective there, with which another planner
-            would use up its time limit. The parameter `turning_radius` of planners that have it is set to the car's
+            Planners that improve paths receive the objective of the settings, or path length if it is unset. So does
+            improved A* with an objective of the settings, or with `anytime` and a threshold. Problem definitions are
+            not shared: RRTstar::setup() stores an objective there, with which another planner would use up its time
+            limit. The parameter `turning_radius` of planners that have it is set to the car's
             unless \e settings contain it. Then the settings of the entry and of the user are applied and the planner is
             set up.
 
@@ -159,7 +175,6 @@ namespace parking
 
     private:
         std::string troubleAt(const Pose &pose) const;
-
         Scenario scenario_;
         ProblemSettings settings_;
         std::shared_ptr<const ObstacleSet> obstacles_;

@@ -1,5 +1,6 @@
 #include "benchmarks/planners/MeasuredPlanner.h"
 
+#include "ompl_improved_astar/DrivingCostObjective.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/OmplPose.h"
 
@@ -144,7 +145,11 @@ namespace parking
         if (status == ob::PlannerStatus::APPROXIMATE_SOLUTION && !getProblemDefinition()->getSolutionPath())
             return ob::PlannerStatus::TIMEOUT;
         if (exact)
-            record_->noteAtEnd(getProblemDefinition()->getSolutionPath()->length());
+        {
+            const auto &path = static_cast<const ompl::geometric::PathGeometric &>(
+                *getProblemDefinition()->getSolutionPath());  // see failureOfAnswer()
+            record_->noteAtEnd(objective_ ? pathCost(path, objective_).value() : path.length());
+        }
         return status;
     }
 
@@ -172,18 +177,5 @@ namespace parking
         for (const auto &[name, property] : planner_->getPlannerProgressProperties())
             data.properties.erase(name);
         ob::Planner::getPlannerData(data);
-    }
-
-    RecordingObjective::RecordingObjective(const ob::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record)
-      : ob::PathLengthOptimizationObjective(si),
-        record_(std::move(record))
-    {
-        description_ = "Path Length";
-    }
-
-    bool RecordingObjective::isSatisfied(ob::Cost cost) const
-    {
-        record_->note(cost.value());
-        return ob::PathLengthOptimizationObjective::isSatisfied(cost);
     }
 }  // namespace parking

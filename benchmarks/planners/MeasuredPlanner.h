@@ -2,14 +2,15 @@
 
 #include "benchmarks/planners/SolveRecord.h"
 
+#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/Planner.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 
 #include <atomic>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace parking
 {
@@ -109,6 +110,12 @@ namespace parking
             timeLimit_ = seconds;
         }
 
+        /** \brief Sets the cost of the final path in the record; null: its length. */
+        void setObjective(ompl::base::OptimizationObjectivePtr objective)
+        {
+            objective_ = std::move(objective);
+        }
+
         /** \brief Ends solve() also when \e stop is true; null: not checked. */
         void setStop(const std::atomic<bool> *stop)
         {
@@ -131,23 +138,33 @@ namespace parking
         ompl::base::PlannerPtr planner_;
         std::shared_ptr<SolveRecord> record_{std::make_shared<SolveRecord>()};
         mutable std::optional<PlannerFailure> failure_;
+        ompl::base::OptimizationObjectivePtr objective_;
         double timeLimit_{1e9};
         const std::atomic<bool> *stop_{nullptr};
         std::atomic<bool> wasStopped_{false};  ///< set by each of a planner's threads
     };
 
-    /** \brief Path length that records when each length was reached.
+    /** \brief An objective that records when each cost was reached.
 
         Every optimising planner of OMPL passes a new solution to its objective to check whether it is good enough. That
         is the measured time; no other thread needs to poll. */
-    class RecordingObjective final : public ompl::base::PathLengthOptimizationObjective
+    template <class Objective>
+    class RecordingObjective final : public Objective
     {
     public:
         /** \brief \param record receives the cost of every solution that a planner checks */
-        RecordingObjective(const ompl::base::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record);
+        RecordingObjective(const ompl::base::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record)
+          : Objective(si),
+            record_(std::move(record))
+        {
+        }
 
-        /** \brief Records \e cost and returns the result of the path length. */
-        bool isSatisfied(ompl::base::Cost cost) const override;
+        /** \brief Records \e cost and returns the result of the objective. */
+        bool isSatisfied(ompl::base::Cost cost) const override
+        {
+            record_->note(cost.value());
+            return Objective::isSatisfied(cost);
+        }
 
     private:
         std::shared_ptr<SolveRecord> record_;

@@ -121,7 +121,7 @@ namespace parking
                         return;
                     known = pdef_->getSolutionCount();
                     if (const auto objective = pdef_->getOptimizationObjective())
-                        objective->isSatisfied(ompl::base::Cost(pdef_->getSolutionPath()->length()));
+                        objective->isSatisfied(pdef_->getSolutionPath()->cost(objective));
                 };
                 return og::AORRTC::solve(ompl::base::PlannerTerminationCondition(
                     [&]

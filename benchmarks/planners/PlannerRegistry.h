@@ -42,7 +42,7 @@ namespace parking
     {
         std::string name;     ///< name in lists; unique apart from case, underscores, hyphens and blanks
         std::string summary;  ///< one line for --help
-        /** Whether the planner receives path length as its objective and improves paths until the time limit. */
+        /** Whether the planner receives an objective and improves paths until the time limit. */
         bool optimizing{false};
         ompl::base::PlannerAllocator allocate;  ///< creates an instance; not empty in a registry
         PlannerSettings settings;               ///< parameters set on every instance before the user's

@@ -46,6 +46,8 @@ namespace parking
 
             {"path length", Real, "m", "of the path as it is driven",
              InSummary{"length", Statistic::MedianWithInterval, 2}},
+            {"path cost", Real, "m", "of the path by the `objective`, if one is set",
+             InSummary{"cost", Median, 3, false}, InReport{"cost", 1.0, "m"}},
             {"cusps", Integer, "", "changes of direction", InSummary{"cusps", Median, 0}},
             {"least clearance", Real, "m", "minimum distance between the body (or disc) and obstacles along the path",
              InSummary{"clearance", Median, 3}},

@@ -1,5 +1,7 @@
 #include "ompl_improved_astar/search/CostModel.h"
 
+#include "ompl_improved_astar/search/planning/Parameters.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -34,6 +36,18 @@ namespace parking::search
                                    preferredClearance))
                 nearer += spacing;
         return clearanceCost * std::max(floor, nearer);
+    }
+
+    CostModel costModel(const PlannerParameters &parameters, double turningRadius)
+    {
+        CostModel cost;
+        cost.reversePenalty = parameters.reversePenalty;
+        cost.gearChangePenalty = parameters.gearChangePenalty;
+        cost.steeringChangePenalty = parameters.steeringChangePenalty;
+        cost.fullLockCurvature = 1.0 / turningRadius;
+        cost.preferredClearance = parameters.preferredClearance;
+        cost.clearanceCost = parameters.clearanceCost;
+        return cost;
     }
 
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve, const PathPiece *before,

@@ -11,6 +11,11 @@
 #include <optional>
 #include <vector>
 
+namespace parking
+{
+    struct PlannerParameters;
+}
+
 namespace parking::search
 {
     /** \brief Cost of motions: one model for motion primitives, analytic curves and whole paths.
@@ -57,6 +62,9 @@ namespace parking::search
         double proximity(const Pose &from, const PathPiece &piece, MotionEnvironment &environment, double clear = -1.0,
                          double max = std::numeric_limits<double>::infinity()) const;
     };
+
+    /** \brief The cost model with the weights of \e parameters for a car of this turning radius in metres. */
+    CostModel costModel(const PlannerParameters &parameters, double turningRadius);
 
     /** \brief Cost of an analytic curve, obstacles ignored.
 

@@ -39,16 +39,9 @@ namespace parking::search
             }
         query_.emplace(SearchContext{environment, parameters, car, {}});
         query_->car.bodyRadius = std::max(car.bodyRadius, car.inscribedRadius);
-        CostModel &cost = query_->cost;
-        cost.reversePenalty = parameters.reversePenalty;
-        cost.gearChangePenalty = parameters.gearChangePenalty;
-        cost.steeringChangePenalty = parameters.steeringChangePenalty;
-        cost.fullLockCurvature = 1.0 / car.turningRadius;
-        if (traits_.drivesCurves && environment.knowsClearance())
-        {
-            cost.preferredClearance = parameters.preferredClearance;
-            cost.clearanceCost = parameters.clearanceCost;
-        }
+        query_->cost = costModel(parameters, car.turningRadius);
+        if (!traits_.drivesCurves || !environment.knowsClearance())
+            query_->cost.preferredClearance = query_->cost.clearanceCost = 0.0;
         model_->begin(*query_);
         traits_ = model_->traits();
         weights_ = parameters.weights();

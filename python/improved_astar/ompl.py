@@ -33,6 +33,8 @@ __all__ = ['FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValida
 MAX_SAMPLED_GOALS = 16   # read at first from a region
 MAX_LISTED_GOALS = 1000  # read at first from a list
 GOAL_ATTEMPTS = 1000     # samples of a region for a first valid or reachable goal
+LENGTH_ALONE = dict.fromkeys(('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty',
+                              'preferred_clearance', 'clearance_cost'), 0.0)  # the search minimises the length
 FARTHEST_DUBINS = 1e7    # turning radii from the origin, beyond which rounding may change OMPL's curves
 
 Status = ob.PlannerStatus
@@ -248,7 +250,8 @@ class ImprovedAStar(ob.Planner):
 
     Supports any validity checker. With a FootprintChecker the search stays in C++. A checker with a method
     areValid(poses), which maps n rows x, y, yaw to n bool, is called in batches. Parameters are set by name here, or
-    later through params().
+    later through params(). With OMPL's path length as the objective the search minimises the length; any other
+    objective is evaluated for each path found.
     """
 
     def __init__(self, si: ob.SpaceInformation, name: str = 'ImprovedAStar', **parameters: Any) -> None:
@@ -351,6 +354,8 @@ class ImprovedAStar(ob.Planner):
 
     def _begin(self, asked: Tuple[Any, ...]) -> None:
         _, _, checker, validator, objective, parameters = self._asked = asked
+        if type(objective) is ob.PathLengthOptimizationObjective:
+            parameters = {**parameters, **LENGTH_ALONE}
         bounds = self._space.getBounds()
         box = (*bounds.low, *bounds.high)
         footprint = checker.footprint if type(checker) is FootprintChecker else None

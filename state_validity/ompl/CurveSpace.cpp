@@ -22,6 +22,7 @@ namespace parking
     {
         /** Length above that of every curve, which OMPL uses for "no curve". */
         constexpr double NO_CURVE = 1e100;
+        constexpr double SHORTEST_PIECE = 1e-7;  // metres
 
         template <class Space>
         auto shortest(const Space &space, const ob::State *from, const ob::State *to)
@@ -149,5 +150,14 @@ namespace parking
         }
         else
             throw ompl::Exception("a plain SE2 space has no curves: its states are joined by straight lines");
+    }
+
+    void CurveSpace::append(const ob::State *from, const ob::State *to, Path &path) const
+    {
+        ReedsSheppCurve between;
+        curve(from, to, between);
+        for (std::size_t i = 0; i < between.count; ++i)
+            if (std::abs(between.pieces[i].length) >= SHORTEST_PIECE)
+                path.append(between.pieces[i]);
     }
 }  // namespace parking

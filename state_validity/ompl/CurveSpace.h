@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <ompl/base/State.h>
@@ -52,6 +53,10 @@ namespace parking
         /** \brief Writes the arcs that the space's interpolate() follows between two poses into \e curve. Allocates two
             states for this. */
         void curve(const Pose &from, const Pose &to, ReedsSheppCurve &curve) const;
+
+        /** \brief Adds the curve from one state to another to \e path. Pieces shorter than a tenth of a micrometre are
+            rounding of a curve's formula and left out. */
+        void append(const ompl::base::State *from, const ompl::base::State *to, Path &path) const;
 
     private:
         const ompl::base::StateSpace *space_;

@@ -153,6 +153,24 @@ def test_a_query_goes_on():
     assert solve(setup, 0.2) == Type.EXACT_SOLUTION
 
 
+def test_the_search_minimises_path_length_if_that_is_the_objective():
+    class Evaluated(ob.PathLengthOptimizationObjective):
+        """Of another class, so that the search keeps its own cost."""
+
+    found = {}
+    for name in ('length', 'penalties', 'evaluated', 'none'):
+        zero = dict.fromkeys(('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty', 'clearance_cost'), 0)
+        setup = iao.simpleSetup(scenario('narrow_parallel.yaml'), **(zero if name == 'penalties' else {}))
+        if name in ('length', 'evaluated'):
+            kind = ob.PathLengthOptimizationObjective if name == 'length' else Evaluated
+            setup.setOptimizationObjective(kind(setup.getSpaceInformation()))
+        assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+        found[name] = setup.getPlanner().pieces()
+    assert numpy.array_equal(found['length'], found['penalties'])
+    assert numpy.array_equal(found['evaluated'], found['none'])
+    assert numpy.abs(found['length'][:, 1]).sum() < numpy.abs(found['none'][:, 1]).sum()
+
+
 def test_replaced_starts_and_goals_begin_a_new_query():
     setup = iao.simpleSetup(wall())
     goal = ob.GoalState(setup.getSpaceInformation())

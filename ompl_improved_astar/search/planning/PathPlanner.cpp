@@ -60,12 +60,28 @@ namespace parking::search
             take(priced(search_.bestPath(), search_.bestCost()));
         if (hasSolution() && !isGoodEnough_ && parameters_.anytime && improver_ && !isShortestPossible(best_))
             outcome = planAnytime();
+        endCall();
+        return outcome;
+    }
+
+    void PathPlanner::endCall()
+    {
         // stop may refer to what is gone from now on.
         stop_ = []
         {
             return true;
         };
-        return outcome;
+    }
+
+    void PathPlanner::offer(const Path &path, const StopFunction &stop, const ImprovementFunction &improved)
+    {
+        stop_ = stop;
+        improved_ = improved;
+        PricedPath candidate = priced(path, path.length());
+        if (improver_ && parameters_.shortening)
+            improveFirst(candidate, search_.expectedCost());
+        take(candidate);
+        endCall();
     }
 
     void PathPlanner::planFirst()

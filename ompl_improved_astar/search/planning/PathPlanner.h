@@ -50,6 +50,9 @@ namespace parking::search
         /** \brief Plans; call it again to resume after Stopped or after adding roots. */
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
 
+        /** \brief Improves a path of another planner for the same query, and takes it if it is the cheapest. */
+        void offer(const Path &path, const StopFunction &stop, const ImprovementFunction &improved);
+
         /** \brief Finds a path that ends as near to \e target as possible, by distance between the rear axles.
 
             Runs a separate search from the start. If no time or memory is left, or the start's side is exhausted,
@@ -103,6 +106,7 @@ namespace parking::search
         {
             return stop_ && stop_();
         }
+        void endCall();
         void planFirst();
         Outcome planAnytime();
         PricedPath priced(const Path &path, double cost) const;

@@ -32,6 +32,7 @@ namespace
 scenario = a.yaml   # another
 scenario = sub/b.csv
 vehicle = tpcap
+objective = length
 objective.threshold = 3.5
 threshold = 1e-15
 start.x = 1
@@ -59,6 +60,7 @@ rrt.name=short
 rrt.range=0.5
 rrt.goal_bias=0.1
 rrt.problem.space=se2
+rrt.problem.objective=driving
 rrt.only=a, b*
 rrt=
 )");
@@ -82,11 +84,13 @@ rrt=
         EXPECT_EQ(config.planners[1].name, "short");
         EXPECT_EQ(config.planners[1].settings, (PlannerSettings{{"range", "0.5"}, {"goal_bias", "0.1"}}));
         EXPECT_EQ(config.planners[1].problem.settings.space, SpaceKind::SE2);
+        EXPECT_EQ(config.planners[1].problem.settings.objective, ObjectiveKind::Driving);
         EXPECT_EQ(config.planners[1].only, (std::vector<std::string>{"a", "b*"}));
         EXPECT_EQ(config.planners[2].name, "RRT_2");
         const ProblemOptions &common = config.planners[2].problem;
         EXPECT_EQ(common.settings.space, SpaceKind::ReedsShepp);
         EXPECT_EQ(common.vehicle, "tpcap");
+        EXPECT_EQ(common.settings.objective, ObjectiveKind::Length);
         EXPECT_EQ(common.settings.threshold, 3.5);
         EXPECT_EQ(common.sampler, "gaussian");
         ASSERT_TRUE(common.start.has_value());

@@ -63,6 +63,7 @@ namespace
         EXPECT_EQ(experiments[3].name, "b_se2_circle");
         EXPECT_EQ(experiments[3].planners, (std::vector<std::size_t>{1, 2}));
         expectError([&] { planExperiments(config("prm=\nprm.only=d*\n")); }, {"planner PRM", "'d*'"});
+        EXPECT_EQ(planExperiments(config("prm=\nrrt=\nrrt.problem.objective=driving\n"))[1].name, "a_driving");
     }
 
     TEST_F(ExperimentTest, WithOtherScenariosWhoIsRunOnTheFormerOnlyIsLeftOut)
@@ -201,6 +202,9 @@ namespace
         EXPECT_EQ(print("prm=\n", "scenario = a.yaml\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = b.yaml\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\nspace = dubins\n"), same);
+        EXPECT_NE(print("prm=\n", "scenario = *.yaml\nobjective = length\n"), same);
+        EXPECT_NE(print("prm=\n", "scenario = *.yaml\nobjective = driving\n"),
+                  print("prm=\n", "scenario = *.yaml\nobjective = length\n"));
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "time_limit = 1\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "seed = 2\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "track = 1\n"), same);

@@ -4,6 +4,8 @@
 #include "benchmarks/plan/Problem.h"
 #include "benchmarks/planners/MeasuredPlanner.h"
 #include "benchmarks/planners/PlannerRegistry.h"
+#include "ompl_improved_astar/DrivingCostObjective.h"
+#include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -19,6 +21,7 @@
 
 namespace
 {
+    namespace ob = ompl::base;
     using namespace parking;
     using parking_test::expectError;
 
@@ -84,6 +87,39 @@ namespace
         }
         EXPECT_GT(planOnce(impossible, registry_.find("improved_astar"), {{"anytime", "1"}}, 0.2, 1).planningTime,
                   0.15);
+    }
+
+    TEST_F(Planners, MinimiseTheObjectiveAndRecordTheCostOfTheirPaths)
+    {
+        for (const ObjectiveKind kind : {ObjectiveKind::Unset, ObjectiveKind::Length, ObjectiveKind::Driving})
+            for (const char *planner : {"improved_astar", "hybrid_astar", "RRTConnect", "PRM", "RRTstar", "BITstar"})
+            {
+                SCOPED_TRACE(toString(kind) + " " + planner);
+                ProblemSettings settings;
+                settings.objective = kind;
+                const Problem problem = openField(settings);
+                const PlannerEntry &entry = registry_.find(planner);
+                const PreparedPlanner prepared = problem.prepare(entry, {});
+                const auto objective = prepared.problem()->getOptimizationObjective();
+                EXPECT_EQ(problem.objective() == nullptr, kind == ObjectiveKind::Unset);
+                // Those to the first solution would use up their time limit.
+                ASSERT_EQ(objective != nullptr,
+                          entry.optimizing || (kind != ObjectiveKind::Unset && prepared.improved() != nullptr));
+                const bool isDriving = dynamic_cast<const DrivingCostObjective *>(objective.get()) != nullptr;
+                EXPECT_EQ(isDriving, objective != nullptr && kind == ObjectiveKind::Driving);
+                prepared.planner->setTimeLimit(0.3);
+                if (prepared.planner->solve(ob::plannerNonTerminatingCondition()) != ob::PlannerStatus::EXACT_SOLUTION)
+                    continue;  // a machine with other load
+                const auto &path =
+                    dynamic_cast<const ompl::geometric::PathGeometric &>(*prepared.problem()->getSolutionPath());
+                const double cost =
+                    kind == ObjectiveKind::Unset ? path.length() : pathCost(path, problem.objective()).value();
+                EXPECT_LE(prepared.planner->record()->bestCost(), cost + 1e-6);
+                if (!entry.optimizing)
+                {
+                    EXPECT_NEAR(prepared.planner->record()->bestCost(), cost, 1e-6);
+                }
+            }
     }
 
     TEST_F(Planners, AreFoundHoweverTheyAreSpelt)

@@ -73,7 +73,7 @@ class Configuration(InputTest):
         self.refused(problem='circle_radius = -1', parts=['circle_radius'])
         self.refused(problem='start.x = nan', parts=['start.x'])
         self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'whose x ranges between'])
-        self.refused(problem='objective = clearance', parts=['length'])
+        self.refused(problem='objective = clearance', parts=['length', 'driving'])
         self.refused(problem='sampler = best', parts=['gaussian'])
 
     def test_files(self):

@@ -178,6 +178,35 @@ improved_astar.problem.footprint=circle
                           ('underground_garage_se2_circle', 'grid16')])
         self.assertEqual([run['figures']['success'] for run in runs], [True, True, True])
 
+    def test_the_cost_of_all_paths_is_that_of_the_objective(self):
+        for objective in ('length', 'driving', None):
+            self.write('set.cfg', CONFIG.replace('[benchmark]', 'objective = %s\n[benchmark]' % objective
+                                                 if objective else '[benchmark]'))
+            self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect',
+                           '--planner', 'improved_astar')
+            runs = [run['figures'] for run in self.records('out/benchmark.db')]
+            self.assertEqual(len(runs), 4)
+            for run in runs:
+                self.assertEqual('path cost' in run, objective is not None)
+                if objective == 'length':
+                    self.assertAlmostEqual(run['path cost'], run['path length'], delta=1e-4)
+                elif objective:
+                    # The penalties of the planner's defaults.
+                    self.assertGreater(run['path cost'], run['path length'] + 0.5 * run['cusps'] - 1e-4)
+
+    def test_paths_are_not_longer_if_the_length_is_the_objective(self):
+        names = ('angled45', 'dead_end_aisle', 'multi_storey', 'narrow_parallel', 'narrow_perpendicular', 'parallel',
+                 'perceived_street', 'perpendicular', 'tight_parallel', 'underground_garage')
+        self.write('set.cfg', '[problem]\n%s[benchmark]\ntime_limit = 60\nrun_count = 1\n[planner]\nimproved_astar=\n'
+                   'improved_astar=\nimproved_astar.name=shortest\nimproved_astar.problem.objective=length\n' %
+                   ''.join('scenario = %s\n' % bundled(name) for name in names))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet')
+        lengths = {(run['experiment'], run['planner']): run['figures']['path length']
+                   for run in self.records('out/benchmark.db')}
+        for name in names:
+            with self.subTest(name):
+                self.assertLessEqual(lengths[name + '_length', 'shortest'], lengths[name, 'improved_astar'] + 1e-6)
+
     def test_simplified_driven_and_timed_paths_are_reported_beside(self):
         self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\ntrajectory = yes\n[planner]'))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect', '--planner',

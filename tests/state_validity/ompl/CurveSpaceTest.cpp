@@ -75,6 +75,12 @@ namespace
                 ASSERT_NE(curve.pieces[k].length, 0.0);
             }
             ASSERT_NEAR(length, curve.length, 1e-9 * radius);
+            Path path{poseOf(from.get()), {}};
+            curves.append(from.get(), to.get(), path);
+            ASSERT_NEAR(path.length(), curve.length, 1e-6);
+            expectSame(path.end(), poseOf(to.get()), 1e-6 * std::max(1.0, radius));
+            for (const PathPiece &piece : path.pieces)
+                ASSERT_GE(piece.driven(), 1e-7);
             for (double t = 0.0; t < 1.0; t += 0.0625)
             {
                 space->interpolate(from.get(), to.get(), t, between.get());
