@@ -7,14 +7,14 @@ import signal
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from improved_astar import Error, Vehicle
 from improved_astar._core import _read_file as read_file, _unknown_name as unknown_name, _write_file as write_file
 
-from . import bench_mr, commonparking, hope, matlab, own, parkbench, results
+from . import bench_mr, commonparking, hope, matlab, omplapp, own, parkbench, results
 from .scenarios import obstacle_polygons
 from .text import counted, number, numbers, one_line, pose_of, quoted
 
@@ -33,7 +33,7 @@ class ProblemFormat:
     largest: int                         # maximum bytes of a file
     recognizes: Callable[[bytes], bool]  # (content): whether it has this format
     read: Callable[..., Any]             # (file, content, vehicle, start, goal): the Scenario
-    write: Callable[..., Any]            # (scenario, file): the content of the file, as text or bytes; None: read only
+    write: Optional[Callable[..., Any]]  # (scenario, file): the content as text or bytes; None: is only read
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,8 @@ PROBLEM_FORMATS = [
                   bench_mr.read, bench_mr.svg_text),
     ProblemFormat('parkbench', '.json', 'scenes of ParkBench, without a car; read only', 16 * MEBIBYTE,
                   parkbench.is_scene, parkbench.read, None),
+    ProblemFormat('omplapp', '.cfg', 'planar problems of OMPL.app\'s ompl_benchmark, with their meshes (only read)',
+                  MEBIBYTE, omplapp.recognizes, omplapp.read, None),
     ProblemFormat('tpcap', '.csv', 'cases of TPCAP, without a car; default: TPCAP\'s car',
                   16 * MEBIBYTE, lambda content: False, own.read, own.tpcap_text),
     ProblemFormat('yaml', '.yaml', 'scenarios of this project, with the maps and voxels that they name', 16 * MEBIBYTE,

@@ -327,6 +327,123 @@ class ProblemsTest(ConvertTest):
             self.assertIn(word, text)
 
 
+def mesh(boxes, up='Z_UP', matrix='2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1'):
+    """A document in COLLADA with the faces of boxes (low x, low y, high x, high y), 1 high, in a node within a node."""
+    points, corners = [], []
+    for low_x, low_y, high_x, high_y in boxes:
+        first = len(points)
+        for height in (0, 1):
+            for x, y in ((low_x, low_y), (high_x, low_y), (high_x, high_y), (low_x, high_y)):
+                points.append((x, -height, y) if up == 'Z_UP' else (x, y, height))
+        quads = [(0, 1, 2, 3), (4, 5, 6, 7)] + [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)]
+        for a, b, c, d in quads:
+            corners += [first + each for each in (a, b, c, a, c, d)]
+    numbers = ' '.join(str(value) for point in points for value in point)
+    indices = ' '.join(f'{each} 0' for each in corners)  # a second input with an offset of its own
+    return f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"><asset><up_axis>{up}</up_axis></asset>
+<library_visual_scenes><visual_scene id="s"><node><matrix>{matrix}</matrix><instance_node url="#n"/></node></visual_scene>
+</library_visual_scenes><library_nodes><node id="n"><instance_geometry url="#g"/></node></library_nodes>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array>{numbers}</float_array></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="{len(corners) // 3}">
+<input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#p" offset="1"/><p>{indices}</p>
+</triangles></mesh></geometry></library_geometries></COLLADA>"""
+
+
+OMPLAPP = """[problem]
+name = lot  # with a comment
+world = lot.dae
+robot = car.dae
+start.x = 1
+start.y = 2
+start.theta = 0.5
+goal.x = 11
+goal.y = 2
+goal.theta = 0
+[planner]
+rrt=
+aps=
+aps.name=one
+aps=
+aps.name=two
+"""
+
+
+class OmplAppTest(ConvertTest):
+    def setUp(self):
+        super().setUp()
+        self.write('car.dae', mesh([(0, 0, 2, 1)]))
+        self.write('lot.dae', mesh([(10, 10, 12, 11), (-10, -9, -8, -8)]))
+        self.write('lot.cfg', OMPLAPP)
+
+    def test_a_problem_with_its_meshes(self):
+        self.convert('lot.cfg', 'lot.yaml', '--check')
+        scenario = ia.Scenario.read('lot.yaml')
+        self.assertEqual((scenario.start, scenario.goals), ((1, 2, 0.5), [(11, 2, 0)]))
+        # A box is two triangles: its bottom projects on its top, and its sides on edges or one diagonal.
+        corners = np.array([polygon for polygon in scenario.polygons if len(polygon) == 3])
+        self.assertEqual(len(corners), 4)
+        self.assertEqual((corners.min(axis=(0, 1)).tolist(), corners.max(axis=(0, 1)).tolist()), ([-20, -18], [24, 22]))
+        x, y = np.moveaxis(corners, 2, 0)
+        double_areas = np.abs((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (y[:, 1] - y[:, 0]) * (x[:, 2] - x[:, 0]))
+        self.assertAlmostEqual(double_areas.sum(), 2 * 2 * 8.0)
+        self.assertEqual(len(scenario.polygons), 4)
+        # The car turns round its middle.
+        car = scenario.vehicle
+        self.assertEqual((car.rear_overhang, car.wheelbase + car.front_overhang, car.width), (2, 2, 2))
+        self.assertAlmostEqual(car.turning_radius, 1.0)
+
+    def test_the_turning_radius_and_the_volume(self):
+        self.write('lot.cfg', OMPLAPP.replace('[planner]', 'turningradius = 3\nvolume.min.x = -30\nvolume.min.y = -31\n'
+                                              'volume.max.x = 40\nvolume.max.y = 41\n[planner]'))
+        self.convert('lot.cfg', 'lot.yaml')
+        scenario = ia.Scenario.read('lot.yaml')
+        self.assertAlmostEqual(scenario.vehicle.turning_radius, 3.0)
+        within = [(-30, -31, 0), (40, -31, 2), (40, 41, 1), (-30, 41, -1), (-25, 0, 0), (35, 0, 0), (0, -26, 0), (0, 36, 0)]
+        self.assertTrue(scenario.is_free(within).all())
+        self.assertFalse(scenario.is_free([(-36, 0, 0), (46, 0, 0), (0, -37, 0), (0, 47, 0)]).any())
+        self.write('lot.cfg', OMPLAPP.replace('[planner]', 'control = kinematic_car\n[planner]'))
+        self.convert('lot.cfg', 'lot.yaml')
+        self.assertAlmostEqual(ia.Scenario.read('lot.yaml').vehicle.turning_radius, math.sqrt(3.0))
+
+    def test_meshes_that_stand_upright(self):
+        self.convert('lot.cfg', 'lot.yaml')
+        before = self.read('lot.yaml')
+        self.write('car.dae', mesh([(0, 0, 2, 1)], 'Y_UP'))
+        self.write('lot.dae', mesh([(10, 10, 12, 11), (-10, -9, -8, -8)], 'Y_UP'))
+        self.convert('lot.cfg', 'lot.yaml')
+        self.assertEqual(self.read('lot.yaml'), before)
+
+    def test_walls_without_a_top_are_segments(self):
+        text = self.read('lot.dae')
+        start = text.index('<p>') + 3
+        indices = text[start:text.index('</p>')].split()
+        sides = indices[2 * 12:2 * 36]  # of the first box
+        self.write('lot.dae', text[:start] + ' '.join(sides) + text[text.index('</p>'):])
+        self.convert('lot.cfg', 'lot.yaml')
+        segments = {tuple(map(tuple, polygon)) for polygon in ia.Scenario.read('lot.yaml').polygons}
+        self.assertEqual(segments, {((20, 20), (24, 20)), ((24, 20), (24, 22)), ((20, 22), (24, 22)), ((20, 20), (20, 22))})
+
+    def test_bad_files(self):
+        lot, endless = self.read('lot.dae'), self.read('lot.dae').replace('url="#g"', 'url="#g"/><instance_node url="#n"')
+        for old, new, part in (('start.x = 1', 'start.x = one', "start.x must be a number, not 'one'"),
+                               ('goal.theta = 0\n', '', 'no goal.theta'), ('start.theta = 0.5', 'start.z = 1', 'three dimensions'),
+                               ('robot = car.dae', '', 'no robot'), ('lot.dae', 'missing.dae', 'missing.dae'),
+                               ('[planner]', 'turningradius = -1\n[planner]', 'turningradius'),
+                               ('[planner]', 'volume.min.x = 1\n[planner]', 'no volume.min.y')):
+            with self.subTest(new):
+                self.write('lot.cfg', OMPLAPP.replace(old, new))
+                self.refused('lot.cfg', 'lot.yaml', parts=[part])
+        self.write('lot.cfg', OMPLAPP)
+        self.refused('lot.cfg', 'other.cfg', parts=['.cfg'])  # is not written
+        for text, part in ((lot[:-10], 'COLLADA'), (lot.replace('url="#g"', 'url="#x"'), 'COLLADA'), (endless, 'contain themselves'),
+                           (lot.replace('matrix', 'rotate'), 'by a matrix'), (lot.replace('triangles', 'lines'), 'no triangles'),
+                           ('<COLLADA/>', 'COLLADA'), (lot.replace('offset="0"', ''), 'COLLADA'), (lot.replace('<p>0', '<p>999'), 'COLLADA')):
+            with self.subTest(part):
+                self.write('lot.dae', text)
+                self.refused('lot.cfg', 'lot.yaml', parts=['lot.dae: ', part])
+        self.assertFalse(os.path.exists('lot.yaml'))
+
+
 class HopeTest(ConvertTest):
     def test_the_random_numbers_are_those_of_the_standard_library_of_cpp(self):
         random = Random(5489)
