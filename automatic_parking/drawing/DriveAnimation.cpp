@@ -19,6 +19,7 @@ namespace parking
         constexpr double DRAWN_STEP = 0.1;       // metres between the states of a drawn path
         constexpr double RIGHT_OF_FRAME = 16.0;  // pixels for half of the last tick's label
         constexpr double PLOT_WIDTH = 944.0;     // pixels
+        constexpr double PLAN_OPACITY = 0.55, PLAN_UNDER_TRAJECTORY = 0.25;
 
         // The page with placeholders for the data of a drive.
         const char *const PAGE =
@@ -58,7 +59,7 @@ namespace parking
         }
 
         /** The planned path as thin lines, one per stretch between changes of direction. */
-        void drawPlan(SvgMap &map, const SampledPath &planned)
+        void drawPlan(SvgMap &map, const SampledPath &planned, double opacity)
         {
             std::vector<Eigen::Vector2d> line;
             for (std::size_t i = 1; i < planned.size(); ++i)
@@ -72,7 +73,7 @@ namespace parking
                 const bool reverse = planned[i].direction < 0;
                 style.stroke = reverse ? svg_colour::REVERSE : svg_colour::FORWARD;
                 style.strokeWidth = 2.5;
-                style.strokeOpacity = 0.55;
+                style.strokeOpacity = opacity;
                 if (map.drawLine(SvgLayer::Lines, line, style))
                     map.addLegend({reverse ? "planned, reverse" : "planned, forwards", style, SvgSample::Line});
                 line.clear();
@@ -140,7 +141,7 @@ namespace parking
             seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
-        drawPlan(map, states);
+        drawPlan(map, states, reference.empty() ? PLAN_OPACITY : PLAN_UNDER_TRAJECTORY);
         if (!reference.empty())
             drawReference(map, reference);
 
@@ -175,6 +176,7 @@ namespace parking
                     formatNumber(-map.scale() * map.view().min.x()) + " " +
                     formatNumber(map.scale() * map.view().max.y()) + ")");
         replace(page, "@DRIVEN@", svg_colour::DRIVEN);
+        replace(page, "@DARK@", darkTheme());
         replace(page, "@DATA@", data);
         replace(page, "@MAP@", map.toSvg(0.0, 0.0));
         replace(page, "@LEGEND@", legendOf(map));

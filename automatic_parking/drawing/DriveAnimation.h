@@ -10,9 +10,10 @@ namespace parking
 {
     /** \brief An HTML page that shows the drive: a single file without network access or external scripts.
 
-        It contains the map with the planned path, and the car with its steered wheels, lights and track. Buttons, a
-        slider and the keys space and arrows play, pause and speed up the drive. Speed, acceleration and steering are
-        plotted over time with a cursor.
+        It contains the map with the planned path, and the car with its steered wheels, lights and track. The drive
+       plays once, except for readers who prefer reduced motion. Buttons, a slider and the keys space and arrows play,
+       pause and speed it up. Speed, acceleration and steering are plotted over time with a cursor. The page follows the
+        reader's light or dark theme.
 
         \param planned not drawn without pieces
         \param driven a drive in the coordinates of \e scenario, times not decreasing

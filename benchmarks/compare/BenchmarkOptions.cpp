@@ -102,10 +102,9 @@ namespace parking
                 "Examples, run at the root of the project:\n"
                 "  parking_benchmark benchmarks/bundled.cfg --runs 1\n"
                 "  parking_benchmark benchmarks/bundled.cfg --scenarios benchmarks/scenarios/parallel.yaml --fresh\n\n"
-             << describe() << "\nPlanners:";
-        for (const std::string &each : registry.names())
-            text << ' ' << each;
-        text << "\n\nStatus: 0 done, 1 runs or the report are missing, 2 invalid input or usage, 130 interrupted\n";
+             << describe() << '\n'
+             << wrapped("Planners:", registry.names())
+             << "\nStatus: 0 done, 1 runs or the report are missing, 2 invalid input or usage, 130 interrupted\n";
         return text.str();
     }
 }  // namespace parking

@@ -9,6 +9,7 @@
 #include "benchmarks/system/LongStep.h"
 #include "benchmarks/system/Machine.h"
 #include "benchmarks/system/Progress.h"
+#include "benchmarks/system/Terminal.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
@@ -357,7 +358,8 @@ namespace parking
                         pathCsv(scenario, *record));
         }
         writeFileAtomically((folder / "pictures" / (experiment.name + ".svg")).string(),
-                            comparisonSvg(scenario, experiment.name, best));
+                            comparisonSvg(scenario, experiment.name,
+                                          circleRadiusOf(experiment.options.settings, scenario.vehicle), best));
     }
 
     ComparisonResult Comparison::write()
@@ -397,14 +399,14 @@ namespace parking
         };
         writeFileAtomically(nameOf("summary.md"), summaryMarkdown(summaryRows) + failures);
         writeFileAtomically(nameOf("summary.csv"), summaryCsv(summaryRows));
-        result.text = summaryText(summaryRows) + failures + "\nResults:\n    " + database() +
+        result.text = summaryText(summaryRows, hasColour(STDOUT_FILENO)) + failures + "\nResults:\n    " + database() +
                       " (Planner Arena opens it)\n    " + nameOf("summary.md") + "\n    " + nameOf("summary.csv") +
                       "\n    " + nameOf("*.log") + " (of OMPL)\n    " + nameOf("pictures") + "\n";
         // Last, so that a failure does not affect the results.
         try
         {
             if (const std::string report = options_.report ? makeReport(folder_) : ""; !report.empty())
-                result.text += "    " + report + "\n";
+                result.text += "\nReport: " + report + "\n";
         }
         catch (const Error &error)
         {

@@ -196,6 +196,7 @@ namespace parking
             // AIT* and LazyPRM* check the clock too seldom: solutions after the limit do not count.
             const bool late = record.exact && run.firstSolutionTime > timeLimit + LATE;
             record.set("late", late);
+            record.set("solvable", problem.whyUnsolvable().empty());
             record.set("outcome", run.status);
             record.reason = oneLine(run.reason);
             record.set("success", record.exact && run.hasValidPath() && !late);
@@ -365,7 +366,7 @@ namespace parking
         RunRecord record = recordOf(unit);
         try
         {
-            benchmarkRun(record, config_.planners[unit.planner], problem(unit.experiment), solved);
+            benchmarkRun(record, unit.planner, problem(unit.experiment), solved);
         }
         catch (...)
         {
@@ -407,9 +408,10 @@ namespace parking
         return failedRun(recordOf(unit), PlanStatus::Crash, result.text);
     }
 
-    void UnitRunner::benchmarkRun(RunRecord &record, const PlannerSpec &spec, const Problem &world,
+    void UnitRunner::benchmarkRun(RunRecord &record, std::size_t planner, const Problem &world,
                                   const std::function<void()> &solved) const
     {
+        const PlannerSpec &spec = config_.planners[planner];
         const auto seed = static_cast<std::uint32_t>(record.number("seed"));
         seedRandomNumbers(seed);
         const PreparedPlanner prepared = world.prepare(registry_.find(spec.planner), spec.settings);
@@ -433,7 +435,9 @@ namespace parking
         benchmark.setPostRunEvent(
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
-                record.set("peak memory", memory.megabytes());
+                // In a shared process the memory of earlier runs is used again, and nothing grows.
+                if (isIsolated(planner))
+                    record.set("peak memory", memory.megabytes());
                 solved();
                 takeOmplProperties(record, properties);
                 try

@@ -63,7 +63,7 @@ namespace parking
         RunRecord recordOf(const Unit &unit) const;
         RunRecord runHere(const Unit &unit, const std::function<void()> &solved);
         RunRecord runApart(const Unit &unit);
-        void benchmarkRun(RunRecord &record, const PlannerSpec &spec, const Problem &world,
+        void benchmarkRun(RunRecord &record, std::size_t planner, const Problem &world,
                           const std::function<void()> &solved) const;
         void measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const;
 

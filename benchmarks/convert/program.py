@@ -130,7 +130,7 @@ def parse(arguments):
     except argparse.ArgumentError as error:
         raise Error(f'{error} (see --help)') from None
     if unknown:
-        raise Error(unknown_name('option', unknown[0].split('=')[0], [name for name, *_ in OPTIONS]))
+        raise Error(unknown_name('option', unknown[0].split('=')[0], [name for name, *_ in OPTIONS]) + ' (see --help)')
     for name in valued:
         if given.count(name) > 1:
             raise Error(f'option {name} is given more than once (see --help)')

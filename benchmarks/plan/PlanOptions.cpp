@@ -112,10 +112,9 @@ namespace parking
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 20 ? 22 - each.name.size() : 2, ' ')
                  << each.summary << "\n";
-        text << "\nVehicles:";
-        for (const std::string &each : vehicleNames())
-            text << ' ' << each;
-        text << "\n\n"
+        text << '\n'
+             << wrapped("Vehicles:", vehicleNames())
+             << "\n"
                 "Status: 0 exact solution, 3 approximate solution only, 4 no solution, or no content for\n"
                 "--csv or --html, 2 invalid input or usage\n";
         return text.str();

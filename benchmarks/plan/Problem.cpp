@@ -186,11 +186,16 @@ namespace parking
         referee_ = std::make_unique<const Referee>(scenario_, circleRadius());
     }
 
+    double circleRadiusOf(const ProblemSettings &settings, const Vehicle &vehicle)
+    {
+        if (settings.footprint == FootprintKind::Rectangle)
+            return 0.0;
+        return settings.circleRadius > 0.0 ? settings.circleRadius : 0.5 * vehicle.width;
+    }
+
     double Problem::circleRadius() const
     {
-        if (settings_.footprint == FootprintKind::Rectangle)
-            return 0.0;
-        return settings_.circleRadius > 0.0 ? settings_.circleRadius : 0.5 * scenario_.vehicle.width;
+        return circleRadiusOf(settings_, scenario_.vehicle);
     }
 
     /** The fault of a pose, as the end of a sentence; empty when it is free. */

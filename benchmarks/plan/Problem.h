@@ -58,6 +58,9 @@ namespace parking
     ObjectiveKind objectiveByName(const std::string &name);  ///< of length or driving
     /** @} */
 
+    /** \brief Radius of the disc in metres for this car; 0 for a rectangle. */
+    double circleRadiusOf(const ProblemSettings &settings, const Vehicle &vehicle);
+
     /** \brief Throws parking::Error for a radius that is not positive, and for a circle in a space of curves. */
     void checkSettings(const ProblemSettings &settings);
 

@@ -90,9 +90,9 @@ namespace
             throw Error("standard output cannot be written");
         const PlanRun &run = result.first();
         std::string trouble;
-        if (run.status == PlanStatus::InvalidStart || run.status == PlanStatus::InvalidGoal)
+        if (!run.path)
             trouble = problem.whyUnsolvable();
-        else if (run.path && !run.hasValidPath())
+        else if (!run.hasValidPath())
             trouble = run.reason;
         if (!trouble.empty())
             std::cerr << "parking_plan: " << options.scenario << ": " << trouble << std::endl;

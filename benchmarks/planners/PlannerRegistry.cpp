@@ -278,7 +278,7 @@ namespace parking
     {
         const auto found = lookUp(name);
         if (found == entries_.end())
-            throw Error(unknownName("planner", name, names()));
+            throw Error(unknownName("planner", name, names()) + " (see --help)");
         return *found;
     }
 

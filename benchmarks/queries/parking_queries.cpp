@@ -68,10 +68,8 @@ namespace
                 "Examples, run at the root of the project:\n"
                 "  parking_queries --output queries --seed 7\n"
                 "  parking_queries --output garages --from benchmarks/scenarios --queries 4\n\n"
-             << describe() << "\nKinds:";
-        for (const std::string &kind : parking_test::worldKinds())
-            text << ' ' << kind;
-        text << "\n\nStatus: 0 written, 2 invalid input or usage\n";
+             << describe() << '\n'
+             << wrapped("Kinds:", parking_test::worldKinds()) << "\nStatus: 0 written, 2 invalid input or usage\n";
         return text.str();
     }
 

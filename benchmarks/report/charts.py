@@ -2,27 +2,40 @@
 
 The member meta of a trace is the index of its planner, which the page uses to show and hide it. The page adds the
 colours of text and grid, which follow the browser's theme."""
+import functools
 import math
 
 import numpy
 
-from formatting import shown, shown_time
+from formatting import own_name, shown, shown_time
 from planner_statistics import median, median_ranks
 
 # For light and dark pages; further planners repeat them with other dashes.
-COLOURS = ('#3d85c6', '#e07b39', '#1f9e89', '#d1559b', '#9270d6', '#9b9b20', '#3aa9d6', '#8b8b8b')
+COLOURS = ('#3d85c6', '#e07b39', '#1f9e89', '#d1559b', '#9270d6', '#9b9b20', '#8b8b8b', '#d64545', '#2fb4d8', '#5fa33a',
+           '#9c6b43', '#c79a00')
 DASHES = ('solid', 'dash', 'dot')
 MAX_POINTS = 300       # maximum points of a curve: the resolution of a screen
 STEPS = 80             # number of times at which medians over time are computed
 FARTHEST_RATIO = 1000.0  # largest ratio of performance profiles
 
 
-def colour_of(index):
-    return COLOURS[index % len(COLOURS)]
+@functools.lru_cache(maxsize=None)
+def _looks(names):
+    """(colour, dash) of each planner. Results of one planner in several databases share the colour."""
+    shared, looks = list(dict.fromkeys(map(own_name, names))), []
+    for index, name in enumerate(names):
+        place = shared.index(own_name(name))
+        instance = sum(own_name(other) == own_name(name) for other in names[:index])
+        looks.append((COLOURS[place % len(COLOURS)], DASHES[(place // len(COLOURS) + instance) % len(DASHES)]))
+    return looks
 
 
-def dash_of(index):
-    return DASHES[index // len(COLOURS) % len(DASHES)]
+def colour_of(names, index):
+    return _looks(tuple(names))[index][0]
+
+
+def dash_of(names, index):
+    return _looks(tuple(names))[index][1]
 
 
 def _digits(values, digits=4):
@@ -46,18 +59,18 @@ def _time_axis(low, high, text='time (logarithmic)'):
             'exponentformat': 'SI', 'minexponent': 0, 'ticksuffix': 's'}
 
 
-def _curve(index, name, x, y, hover, **more):
+def _curve(names, index, x, y, hover, **more):
     """A step curve; it keeps a value until the next point."""
-    return {'type': 'scatter', 'mode': 'lines', 'meta': index, 'name': name, 'x': _digits(x), 'y': _digits(y),
-            'line': {'shape': 'hv', 'width': 2, 'color': colour_of(index), 'dash': dash_of(index)},
+    return {'type': 'scatter', 'mode': 'lines', 'meta': index, 'name': names[index], 'x': _digits(x), 'y': _digits(y),
+            'line': {'shape': 'hv', 'width': 2, 'color': colour_of(names, index), 'dash': dash_of(names, index)},
             'hovertemplate': '%{fullData.name}: ' + hover + '<extra></extra>', **more}
 
 
-def _band(index, name, x, low, high, hover):
+def _band(names, index, x, low, high, hover):
     """The area between two step curves, as two traces."""
-    red, green, blue = (int(colour_of(index)[k:k + 2], 16) for k in (1, 3, 5))
+    red, green, blue = (int(colour_of(names, index)[k:k + 2], 16) for k in (1, 3, 5))
     area = {'fill': 'tonexty', 'fillcolor': f'rgba({red},{green},{blue},0.13)'}
-    traces = [_curve(index, name, x, low, 'interval from ' + hover), _curve(index, name, x, high, 'interval to ' + hover, **area)]
+    traces = [_curve(names, index, x, low, 'interval from ' + hover), _curve(names, index, x, high, 'interval to ' + hover, **area)]
     for trace in traces:
         trace['line']['width'] = 0
     return traces
@@ -86,7 +99,7 @@ def success_chart(names, runs_of, limit):
     for index, points in points_of.items():
         points = points[::len(points) // MAX_POINTS + 1] + points[-1:]
         x, y = zip((low, 0.0), *points, (high, points[-1][1] if points else 0.0))
-        traces.append(_curve(index, names[index], x, y, '%{y:.0%} by %{x:.3s}s'))
+        traces.append(_curve(names, index, x, y, '%{y:.0%} by %{x:.3s}s'))
     return _figure(traces, _time_axis(low, high), {'title': _title('runs solved'), 'tickformat': '.0%',
                                                    'range': [-0.02, 1.02]})
 
@@ -130,8 +143,8 @@ def length_chart(names, runs_of, limit):
             known = [point for point in points if math.isfinite(point[3])]
             hover = '%{y:.2f} m by %{x:.3s}s'
             if known:
-                traces += _band(index, names[index], *zip(*((x, begin, end) for x, _, begin, end in known)), hover)
-            traces.append(_curve(index, names[index], x, middle, hover))
+                traces += _band(names, index, *zip(*((x, begin, end) for x, _, begin, end in known)), hover)
+            traces.append(_curve(names, index, x, middle, hover))
     if not traces:
         return None
     wide = max(middles) > 4.0 * min(middles)
@@ -157,16 +170,16 @@ def strip_chart(names, rows, limit, detailed):
         traces.append({'type': 'scatter', 'mode': 'markers', 'meta': index, 'name': names[index],
                        'x': _digits(run.time for _, run in solved),
                        'y': _digits(line + 0.07 * (k * 5 % 7 - 3) for k, _ in solved),  # spread vertically
-                       'marker': {'size': 5, 'opacity': 0.6, 'color': colour_of(index)},
+                       'marker': {'size': 5, 'opacity': 0.6, 'color': colour_of(names, index)},
                        **(labels if detailed else {'hoverinfo': 'name'})})
         if math.isfinite(middle):
             end = min(interval[1], high)
             traces.append({'type': 'scatter', 'mode': 'lines', 'meta': index, 'x': _digits([interval[0], end]),
-                           'y': [line, line], 'line': {'width': 9, 'color': colour_of(index)}, 'opacity': 0.3,
+                           'y': [line, line], 'line': {'width': 9, 'color': colour_of(names, index)}, 'opacity': 0.3,
                            'hoverinfo': 'skip'})
             traces.append({'type': 'scatter', 'mode': 'markers', 'meta': index, 'name': names[index],
                            'x': _digits([middle]), 'y': [line],
-                           'marker': {'symbol': 'line-ns-open', 'size': 18, 'line': {'width': 3}, 'color': colour_of(index)},
+                           'marker': {'symbol': 'line-ns-open', 'size': 18, 'line': {'width': 3}, 'color': colour_of(names, index)},
                            'hovertemplate': f'%{{fullData.name}}: median {shown_time(middle)}<extra></extra>'})
         unsolved = len(runs) - len(solved)
         if unsolved:
@@ -185,7 +198,7 @@ def profile_chart(names, profiles, best):
     for index, points in profiles.items():
         within = [point for point in points if point[0] <= high]
         x, y = zip(*within, (high, within[-1][1]))
-        traces.append(_curve(index, names[index], x, y, '%{y:.0%} within %{x:.3g} times the best'))
+        traces.append(_curve(names, index, x, y, '%{y:.0%} within %{x:.3g} times the best'))
     return _figure(traces, {'type': 'log', 'range': [0.0, math.log10(high)],
                             'title': _title(f'ratio to the {best}')},
                    {'title': _title('problems'), 'tickformat': '.0%', 'range': [-0.02, 1.02]})
@@ -199,8 +212,8 @@ def expected_chart(names, expected, count, limit):
         points = [(low, 0.0, 0.0, 0.0), *points]
         x, y, begin, end = zip(*points, (high, *points[-1][1:]))
         hover = '%{y:.1f} problems by %{x:.3s}s'
-        bands += _band(index, names[index], x, begin, end, hover)
-        curves.append(_curve(index, names[index], x, y, hover))
+        bands += _band(names, index, x, begin, end, hover)
+        curves.append(_curve(names, index, x, y, hover))
     return _figure(bands + curves, _time_axis(low, high),
                    {'title': _title(f'problems solved, of {count}'), 'range': [-0.02 * count, 1.02 * count]})
 
@@ -211,7 +224,7 @@ def rank_chart(names, ranks, groups):
     ranks: index -> mean rank; groups: lists of indices adjacent by rank."""
     order = sorted(ranks, key=lambda index: (ranks[index], index))
     traces = [{'type': 'scatter', 'mode': 'markers', 'meta': index, 'name': names[index], 'x': _digits([ranks[index]]),
-               'y': [line], 'marker': {'size': 11, 'color': colour_of(index)},
+               'y': [line], 'marker': {'size': 11, 'color': colour_of(names, index)},
                'hovertemplate': '%{fullData.name}: mean rank %{x:.2f}<extra></extra>'} for line, index in enumerate(order)]
     for place, group in enumerate(groups):
         lines = [order.index(index) for index in group]

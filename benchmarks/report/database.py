@@ -1,6 +1,7 @@
 """Loads databases of ompl_benchmark_statistics, such as those of parking_benchmark, into plain tables."""
 import csv
 import dataclasses
+import functools
 import math
 import os
 import pathlib
@@ -9,9 +10,12 @@ import sqlite3
 
 import numpy
 
+from formatting import own_name
 from program import ReportError
 
 FILE = 'benchmark.db'  # name in a folder of results
+FULL = 0.99        # share of the time limit beyond which a run used it up
+FIRST_FAILURE = 6  # outcomes from this one on are failures of the planner itself (benchmarks/planners/MeasuredPlanner.h)
 
 
 @dataclasses.dataclass
@@ -50,14 +54,34 @@ class Results:
     rechecked: bool = True  # whether every solution was checked again
     sources: list = dataclasses.field(default_factory=list)   # files
     labels: list = dataclasses.field(default_factory=list)    # distinguishing names of the sources
+    origins: dict = dataclasses.field(default_factory=dict)   # planner -> (folder, its name there)
 
     def __post_init__(self):
         self._cells = None
+
+    @functools.cached_property
+    def _blocked(self):
+        return {run.problem for run in self.runs if run.figure('solvable') == 0.0}
 
     @property
     def folder(self):
         """The value of the first source."""
         return os.path.dirname(os.path.abspath(self.sources[0]))
+
+    @property
+    def unsolvable(self):
+        """Problems whose start, or every goal, is not free: no path exists, and a planner must not claim one."""
+        return [problem for problem in self.problems if problem in self._blocked]
+
+    @property
+    def solvable(self):
+        """All other problems."""
+        return [problem for problem in self.problems if problem not in self._blocked]
+
+    def is_refusal(self, run):
+        """Whether a run ended by itself, before the time limit, without claiming a path."""
+        return (not run.solved and not run.invalid and not run.figure('outcome') >= FIRST_FAILURE
+                and run.figure('planning time') < FULL * self.time_limit)
 
     @property
     def versions(self):
@@ -146,7 +170,9 @@ def _read_runs(results, connection, file, rename):
     improvements = _improvements(connection)
     for values in table:
         problem = str(experiments[int(values[places['experimentid']])]['name'])
-        planner = rename(_planner_name(str(planners[int(values[places['plannerid']])]['name'])))
+        name = _planner_name(str(planners[int(values[places['plannerid']])]['name']))
+        planner = rename(name)
+        results.origins[planner] = os.path.dirname(os.path.abspath(file)), name
         run = Run(problem, planner, values, places, improvements.get(int(values[0]), []))
         _judge(run, rechecked)
         if run.solved and not (math.isfinite(run.time) and math.isfinite(run.length)):
@@ -239,8 +265,8 @@ def read_results(*sources):
     if not results.runs:
         raise ReportError(f'{results.sources[0]}: contains no runs')
     if len(sources) > 1:  # instances of one planner are adjacent
-        names = [re.sub(r' \(.*\)$', '', planner) for planner in results.planners]
-        results.planners.sort(key=lambda planner: names.index(re.sub(r' \(.*\)$', '', planner)))
+        names = list(map(own_name, results.planners))
+        results.planners.sort(key=lambda planner: names.index(own_name(planner)))
     limits = {float(value) for value in results.facts.get('timelimit', [])}
     results.time_limit = max(limits) if limits else math.nan
     return results

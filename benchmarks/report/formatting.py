@@ -1,5 +1,11 @@
 """Figures in the format for readers."""
 import math
+import re
+
+
+def own_name(planner):
+    """The name of a planner without that of its results: "RRT (old)" is RRT."""
+    return re.sub(r' \(.*\)$', '', planner)
 
 
 def shown(value, digits=3):

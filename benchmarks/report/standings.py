@@ -189,7 +189,7 @@ def _pairs(results, scores):
         own, table = [], scores[measure]
         for first in range(len(results.planners)):
             for second in range(first + 1, len(results.planners)):
-                found = [difference(table[problem, first], table[problem, second]) for problem in results.problems
+                found = [difference(table[problem, first], table[problem, second]) for problem in results.solvable
                          if (problem, first) in table and (problem, second) in table]
                 if len(found) > 1:
                     wins, losses = sum(value < 0.0 for value in found), sum(value > 0.0 for value in found)
@@ -255,7 +255,7 @@ def problem_classes(results, file=None):
     if file and unknown:
         raise ReportError(f'{file}: {unknown[0]}: there is no such problem in the results')
     found = {}
-    for problem in results.problems:
+    for problem in results.solvable:
         found.setdefault(told.get(problem) or class_by_name(problem), []).append(problem)
     return found
 
@@ -264,15 +264,16 @@ class Standings:
     """All figures, computed once for the page and its files. Fields are sorted by size, pairs by measure."""
 
     def __init__(self, results, classes_file=None):
+        # Problems without a solution are no part of any comparison: all that is right there is to refuse them.
         cells = {(problem, index): results.of(problem, planner) for index, planner in enumerate(results.planners)
-                 for problem in results.problems if results.of(problem, planner)}
+                 for problem in results.solvable if results.of(problem, planner)}
         scores = {measure: {cell: score(runs, measure) for cell, runs in cells.items()} for measure in MEASURES}
         self.pairs = _pairs(results, scores)
         differ = {(pair.measure, pair.first, pair.second): pair.differ for pair in self.pairs}
         together = {}
         for index in range(len(results.planners)):
-            problems = tuple(problem for problem in results.problems if (problem, index) in cells)
-            together.setdefault(problems, []).append(index)
+            if problems := tuple(problem for problem in results.solvable if (problem, index) in cells):
+                together.setdefault(problems, []).append(index)
         self.fields = [Field(results, list(problems), planners, scores, differ) for problems, planners
                        in sorted(together.items(), key=lambda item: -len(item[0]) * len(item[1]))]
         self.classes = problem_classes(results, classes_file)

@@ -8,6 +8,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'report'))
 
 from database import read_results  # noqa: E402
+from formatting import shown_time  # noqa: E402
 from planner_statistics import median, quantile  # noqa: E402
 
 OURS = 'improved_astar'
@@ -78,8 +79,18 @@ class Comparison:
         self.time_limit = results.time_limit
         self.problems = [problem for problem in results.problems
                          if any(run.solved for run in results.runs if run.problem == problem)]
-        self.unsolved = [problem for problem in results.problems if problem not in self.problems]
+        self.unsolvable = results.unsolvable
+        self.unsolved = [problem for problem in results.solvable if problem not in self.problems]
         self.best = {problem: min(run.length for run in results.runs if run.problem == problem) for problem in self.problems}
+
+    def refusals(self, problem):
+        """Which planners refuse a problem without a solution in every run, and after which median time."""
+        refusing = []
+        for planner in self.planners:
+            runs = self.results.of(problem, planner)
+            if runs and all(map(self.results.is_refusal, runs)):
+                refusing.append(f'{planner} after {shown_time(median([run.figure("planning time") for run in runs]))}')
+        return f'{problem}, refused in every run by ' + (', '.join(refusing) or 'no planner')
 
     def runs(self, planner):
         return [run for problem in self.problems for run in self.results.of(problem, planner)]

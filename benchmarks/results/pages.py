@@ -101,10 +101,12 @@ def compared(evidence, figures):
     made = []
     for kind, comparison in evidence.comparisons.items():
         step = f'comparison-{kind}'
-        headings = ['planner', 'solved', 'in common', 'time ratio', 'length ratio', 'cusps', 'clearance, cm', 'first path',
-                    '99 %']
+        headings = ['planner', 'solved', 'in common', 'time ratio', 'length ratio', 'changes of direction',
+                    'clearance, cm', 'first path', '99 %']
         unsolved = comparison.unsolved
         about = f'{count(len(comparison.problems), "problem")}, {comparison.time_limit:g} s.'
+        if comparison.unsolvable:
+            about += f' Without a solution: {"; ".join(map(comparison.refusals, comparison.unsolvable))}.'
         if unsolved:
             them = 'it' if len(unsolved) == 1 else 'them'
             about += f' Left out, since no planner solves {them}: {", ".join(unsolved)}.'
@@ -184,7 +186,7 @@ def ablation(evidence, figures):
     return ['## Ablation', 'Each ability is switched off alone, on all problems above. Ratios to all abilities are geometric '
             'means over the problems that both solve in every run. Cusps are the difference of the sums; 10 cm counts the '
             'paths that keep the preferred clearance.', f'`{evidence.steps[step]["command"]}`',
-            markdown(['variant', 'solved', 'time ratio', 'length ratio', 'cusps', '10 cm', '99 % of times'], rows)]
+            markdown(['variant', 'solved', 'time ratio', 'length ratio', 'changes', '10 cm', '99 % of times'], rows)]
 
 
 def checks(evidence, figures):
@@ -421,7 +423,7 @@ def trajectories_page(evidence):
                              centimetres(drive.get('max_position_error_m', math.nan)),
                              centimetres(drive.get('min_clearance_m', math.nan)), str(drive.get('collisions', '–'))])
         made += [f'## {SETS[kind]}', f'`{evidence.steps[f"trajectories-{kind}"]["command"]}`', markdown(
-            ['problem', 'cusps of the path', 'optimised, s', 'stopping to steer, s', 'fallback', 'J', 'optimising', 'driven, s',
+            ['problem', 'changes of direction', 'optimised, s', 'stopping to steer, s', 'fallback', 'J', 'optimising', 'driven, s',
              'largest error, cm', 'clearance, cm', 'collisions'], rows)]
     return '\n\n'.join(made) + '\n'
 

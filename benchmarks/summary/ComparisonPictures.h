@@ -13,12 +13,15 @@ namespace parking
         path. */
     const RunRecord *bestRun(const std::vector<const RunRecord *> &records);
 
-    /** \brief Picture (SVG) of a problem with the best path of each planner.
+    /** \brief Picture (SVG) of a problem: the best path of all planners, cropped to it, and below it the best path of
+        each planner that solved it in a panel of its own, all with the same view.
 
-        Each stretch between changes of direction is a line with the attributes data-planner, data-run and
-        data-direction (forward or reverse), which the report uses to find it.
+        The report finds the panels by their classes, best and planner, and the paths in them as groups with the
+        attributes data-planner, data-run and data-body (the body's extent behind, ahead and beside the pose, in
+       pixels).
 
+        \param radius of the disc that moves, in metres; 0: the car
         \param best planners' names and best runs (null: none) */
-    std::string comparisonSvg(const Scenario &scenario, const std::string &title,
+    std::string comparisonSvg(const Scenario &scenario, const std::string &title, double radius,
                               const std::vector<std::pair<std::string, const RunRecord *>> &best);
 }  // namespace parking

@@ -1,6 +1,7 @@
 #include "benchmarks/summary/Summary.h"
 
 #include "benchmarks/summary/Statistics.h"
+#include "benchmarks/system/Terminal.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
@@ -16,18 +17,30 @@ namespace parking
     namespace
     {
         constexpr double MS = 1e3;
+        constexpr double FULL = 0.99;  // share of the time limit beyond which a run used it up
+
+        constexpr const char *UNSOLVABLE = "Problems without a solution: right is to end early and to claim no path.";
+        constexpr const char *POPULATIONS = "Times are medians over all runs, other figures over the solved ones.";
+        constexpr std::size_t TERMINAL_WIDTH = 80, NAME_WIDTH = 24;  // characters
 
         using Cells = std::vector<std::string>;
+
+        std::vector<const RunColumn *> tableColumns()
+        {
+            std::vector<const RunColumn *> columns;
+            for (const RunColumn &column : runColumns())
+                if (column.summary && column.summary->inTable)
+                    columns.push_back(&column);
+            return columns;
+        }
 
         Cells headings()
         {
             Cells cells{"problem", "planner", "solved", "near"};
-            for (const RunColumn &column : runColumns())
+            for (const RunColumn *column : tableColumns())
             {
-                if (!column.summary || !column.summary->inTable)
-                    continue;
-                cells.emplace_back(column.summary->heading);
-                if (column.summary->statistic == Statistic::Distribution)
+                cells.emplace_back(column->summary->heading);
+                if (column->summary->statistic == Statistic::Distribution)
                     cells.emplace_back("quartiles");
             }
             cells.emplace_back("valid");
@@ -62,30 +75,144 @@ namespace parking
             return isTime(column) ? shownTime(value) : shown(value, column.summary->decimals);
         }
 
+        std::string ofAll(std::size_t count, const SummaryRow &row)
+        {
+            return std::to_string(count) + "/" + std::to_string(row.runs);
+        }
+
+        /** The median with its unit; "-" without one, or for an infinite time. */
+        std::string medianText(const SummaryFigure &figure)
+        {
+            const RunColumn &column = *figure.column;
+            const bool distribution = column.summary->statistic == Statistic::Distribution;
+            if (std::isnan(figure.median) || (distribution && std::isinf(figure.median)))
+                return "-";
+            const std::string unit = isTime(column) ? "ms" : column.unit;
+            return shownFigure(column, figure.median) + (unit.empty() ? "" : " " + unit);
+        }
+
+        std::string refusalText(const SummaryRow &row)
+        {
+            return std::isfinite(row.refusal) ? shownTime(row.refusal) + " ms" : "-";
+        }
+
         Cells cellsOf(const SummaryRow &row)
         {
-            Cells cells{row.experiment, row.planner, std::to_string(row.solved) + "/" + std::to_string(row.runs),
+            Cells cells{row.experiment, row.planner, ofAll(row.solved, row),
                         row.approximate > 0 ? std::to_string(row.approximate) : "-"};
-            for (const SummaryFigure &figure : row.figures)
+            for (const RunColumn *column : tableColumns())
             {
-                const RunColumn &column = *figure.column;
-                if (!column.summary->inTable)
-                    continue;
-                const bool distribution = column.summary->statistic == Statistic::Distribution;
-                const bool nothing = std::isnan(figure.median) || (distribution && std::isinf(figure.median));
-                const std::string unit = isTime(column) ? "ms" : column.unit;
-                cells.push_back(nothing        ? "-"
-                                : unit.empty() ? shownFigure(column, figure.median)
-                                               : shownFigure(column, figure.median) + " " + unit);
-                if (distribution)
-                    cells.push_back(std::isinf(figure.low)
-                                        ? "-"
-                                        : shownFigure(column, figure.low) + " .. " + shownFigure(column, figure.high));
+                const SummaryFigure &figure = row.figure(column->name);
+                cells.push_back(medianText(figure));
+                if (column->summary->statistic == Statistic::Distribution)
+                    cells.push_back(std::isinf(figure.low) ? "-"
+                                                           : shownFigure(*column, figure.low) + " .. " +
+                                                                 shownFigure(*column, figure.high));
             }
             cells.push_back(row.invalid > 0  ? "NO (" + std::to_string(row.invalid) + ")"
                             : row.solved > 0 ? "yes"
                                              : "-");
             return cells;
+        }
+
+        /** Lines of a table for the terminal, under the names of their problems. */
+        struct Lines
+        {
+            Cells titles;  ///< of all cells but the last
+            /** Cells; the last is a remark, and red if it is about a fault. */
+            std::vector<std::pair<const SummaryRow *, Cells>> rows;
+        };
+
+        /** A title in two lines. */
+        std::pair<std::string, std::string> divided(const std::string &title)
+        {
+            const std::size_t blank = title.rfind(' ');
+            return blank == std::string::npos ? std::make_pair(std::string(), title)
+                                              : std::make_pair(title.substr(0, blank), title.substr(blank + 1));
+        }
+
+        std::vector<std::size_t> widthsOf(const Lines &lines)
+        {
+            std::vector<std::size_t> widths;
+            for (const std::string &title : lines.titles)
+                widths.push_back(std::max(divided(title).first.size(), divided(title).second.size()));
+            for (const auto &[row, cells] : lines.rows)
+                for (std::size_t i = 0; i < widths.size(); ++i)
+                    widths[i] = std::max(widths[i], cells[i].size());
+            widths.front() = std::min(widths.front(), NAME_WIDTH);
+            return widths;
+        }
+
+        /** Names aligned to the left, figures to the right. */
+        std::string alignedLine(const Cells &cells, const std::vector<std::size_t> &widths)
+        {
+            std::string line;
+            for (std::size_t i = 0; i < widths.size(); ++i)
+            {
+                const std::string padding(widths[i] - std::min(widths[i], cells[i].size()), ' ');
+                line += "  " + (i == 0 ? cells[i] + padding : padding + cells[i]);
+            }
+            return line.substr(0, line.find_last_not_of(' ') + 1);
+        }
+
+        std::string textOf(const Lines &lines, bool colours)
+        {
+            if (lines.rows.empty())
+                return "";
+            const std::vector<std::size_t> widths = widthsOf(lines);
+            Cells upper, lower;
+            for (const std::string &title : lines.titles)
+            {
+                upper.push_back(divided(title).first);
+                lower.push_back(divided(title).second);
+            }
+            std::string text = alignedLine(upper, widths) + "\n" + alignedLine(lower, widths) + "\n";
+            std::string problem;
+            for (auto [row, cells] : lines.rows)
+            {
+                if (row->experiment != problem)
+                    text += styled(row->experiment, terminal_style::BOLD, colours) + "\n";
+                problem = row->experiment;
+                if (cells.front().size() > widths.front())
+                {
+                    text += "  " + cells.front() + "\n";
+                    cells.front().clear();
+                }
+                const std::string line = alignedLine(cells, widths);
+                text += line;
+                if (const std::string &remark = cells.back(); !remark.empty())
+                    text += (line.size() + 2 + remark.size() > TERMINAL_WIDTH ? "\n    " : "  ") +
+                            styled(remark, terminal_style::RED, colours && row->invalid > 0);
+                text += "\n";
+            }
+            return text;
+        }
+
+        /** Such as "1 INVALID, 2 near". */
+        std::string remarkOn(const SummaryRow &row)
+        {
+            std::string text = row.invalid > 0 ? std::to_string(row.invalid) + " INVALID" : "";
+            if (row.solvable && row.approximate > 0)
+                text += (text.empty() ? "" : ", ") + std::to_string(row.approximate) + " near";
+            return text;
+        }
+
+        std::string markdownTable(const Cells &titles, const std::vector<Cells> &rows)
+        {
+            const auto line = [](const Cells &cells)
+            {
+                std::string text = "|";
+                for (const std::string &cell : cells)
+                    text += " " + cell + " |";
+                return text + "\n";
+            };
+            std::string text = line(titles) + "| --- | --- |";
+            for (std::size_t i = 2; i < titles.size(); ++i)
+                text += " ---: |";
+            text += "\n";
+            for (const Cells &cells : rows)
+                text += line(cells);
+            return text;
         }
 
         std::string csvNumber(double value)
@@ -150,10 +277,26 @@ namespace parking
                     interval.low, interval.high,         interval.level};
         }
 
+        /** Whether a run ended by itself without claiming a path. */
+        bool isRefusal(const RunRecord &record, double timeLimit)
+        {
+            return !record.exact && record.outcome() && !isFailure(*record.outcome()) &&
+                   record.number("planning time") < FULL * timeLimit;
+        }
+
         /** Summary of all runs of one planner on one experiment. */
-        SummaryRow summaryOf(const std::vector<const RunRecord *> &records)
+        SummaryRow summaryOf(const std::vector<const RunRecord *> &records, bool solvable, double timeLimit)
         {
             SummaryRow row;
+            row.solvable = solvable;
+            std::vector<double> refusals;
+            for (const RunRecord *record : records)
+            {
+                const bool refused = !solvable && isRefusal(*record, timeLimit);
+                row.refused += refused ? 1 : 0;
+                refusals.push_back(refused ? record->number("planning time") : HUGE_VAL);
+            }
+            row.refusal = quantile(refusals, 0.5);
             row.experiment = records.front()->experiment;
             row.planner = records.front()->planner;
             row.runs = records.size();
@@ -184,6 +327,11 @@ namespace parking
     {
         std::vector<SummaryRow> rows;
         for (const Experiment &experiment : experiments)
+        {
+            const bool solvable =
+                std::none_of(records.begin(), records.end(),
+                             [&experiment](const RunRecord &record)
+                             { return record.experiment == experiment.name && record.number("solvable") == 0.0; });
             for (const std::size_t index : experiment.planners)
             {
                 std::vector<const RunRecord *> own;
@@ -191,61 +339,49 @@ namespace parking
                     if (record.experiment == experiment.name && record.planner == config.planners[index].name)
                         own.push_back(&record);
                 if (!own.empty())
-                    rows.push_back(summaryOf(own));
+                    rows.push_back(summaryOf(own, solvable, config.timeLimit));
             }
+        }
         return rows;
     }
 
-    std::string summaryText(const std::vector<SummaryRow> &rows)
+    std::string summaryText(const std::vector<SummaryRow> &rows, bool colours)
     {
-        std::vector<Cells> table{headings()};
+        Lines solvable{{"planner", "solved"}, {}}, others{{"planner", "refused", "after"}, {}};
+        for (const RunColumn *column : tableColumns())
+            solvable.titles.emplace_back(column->summary->heading);
         for (const SummaryRow &row : rows)
-            table.push_back(cellsOf(row));
-        std::vector<std::size_t> widths(table.front().size(), 0);
-        for (const Cells &cells : table)
-            for (std::size_t i = 0; i < cells.size(); ++i)
-                widths[i] = std::max(widths[i], cells[i].size());
-        std::string text;
-        std::string last;
-        for (std::size_t line = 0; line < table.size(); ++line)
         {
-            Cells cells = table[line];
-            if (line > 0 && cells[0] == last)
-                cells[0].clear();
-            else if (line > 0)
-            {
-                last = cells[0];
-                text += "\n";
-            }
-            std::string each;
-            for (std::size_t i = 0; i < cells.size(); ++i)
-            {
-                const std::string padding(widths[i] - cells[i].size(), ' ');
-                // Names aligned to the left, figures to the right.
-                each += (i < 2 ? cells[i] + padding : padding + cells[i]) + "  ";
-            }
-            text += each.substr(0, each.find_last_not_of(' ') + 1) + "\n";
+            Cells cells{row.planner, ofAll(row.solvable ? row.solved : row.refused, row)};
+            if (row.solvable)
+                for (const RunColumn *column : tableColumns())
+                    cells.push_back(medianText(row.figure(column->name)));
+            else
+                cells.push_back(refusalText(row));
+            cells.push_back(remarkOn(row));
+            (row.solvable ? solvable : others).rows.emplace_back(&row, std::move(cells));
         }
+        std::string text = textOf(solvable, colours);
+        if (!text.empty())
+            text += std::string("\n") + POPULATIONS + "\n";
+        if (!others.rows.empty())
+            text += (text.empty() ? "" : "\n") + std::string(UNSOLVABLE) + "\n" + textOf(others, colours);
         return text;
     }
 
     std::string summaryMarkdown(const std::vector<SummaryRow> &rows)
     {
-        std::string text = "|";
-        const Cells titles = headings();
-        for (const std::string &title : titles)
-            text += " " + title + " |";
-        text += "\n| --- | --- |";
-        for (std::size_t i = 2; i < titles.size(); ++i)
-            text += " ---: |";
-        text += "\n";
+        std::vector<Cells> solvable, others;
         for (const SummaryRow &row : rows)
-        {
-            text += "|";
-            for (const std::string &cell : cellsOf(row))
-                text += " " + cell + " |";
-            text += "\n";
-        }
+            if (row.solvable)
+                solvable.push_back(cellsOf(row));
+            else
+                others.push_back({row.experiment, row.planner, ofAll(row.refused, row), refusalText(row),
+                                  row.invalid > 0 ? std::to_string(row.invalid) : "-"});
+        std::string text = solvable.empty() ? "" : markdownTable(headings(), solvable) + "\n" + POPULATIONS + "\n";
+        if (!others.empty())
+            text += (text.empty() ? "" : "\n") + std::string(UNSOLVABLE) + "\n\n" +
+                    markdownTable({"problem", "planner", "refused", "after", "claimed a path"}, others);
         return text;
     }
 
@@ -285,7 +421,7 @@ namespace parking
             if (column.summary)
                 for (const CsvFigure &each : csvFigures(column.summary->statistic))
                     text += "," + csvHeading(column, each);
-        text += "\n";
+        text += ",solvable,refused,refusal_median_s\n";
         for (const SummaryRow &row : rows)
         {
             text += row.experiment + "," + row.planner + "," + std::to_string(row.runs) + "," +
@@ -294,7 +430,8 @@ namespace parking
             for (const SummaryFigure &figure : row.figures)
                 for (const CsvFigure &each : csvFigures(figure.column->summary->statistic))
                     text += "," + csvNumber(figure.*each.value);
-            text += "\n";
+            text += std::string(",") + (row.solvable ? "1," : "0,") + std::to_string(row.refused) + "," +
+                    csvNumber(row.refusal) + "\n";
         }
         return text;
     }

@@ -32,6 +32,9 @@ namespace parking
         std::size_t solved{0};       ///< number of exact and densely valid paths
         std::size_t invalid{0};      ///< number of paths exact by the planner's report, but invalid in the recheck
         std::size_t approximate{0};  ///< number of other paths: short of the goals, or after the time limit
+        bool solvable{true};         ///< whether start and a goal are free; otherwise no path exists
+        std::size_t refused{0};      ///< without a solution: runs that ended before the time limit and claimed no path
+        double refusal{0.0};         ///< median time of these; infinite if half of the runs are others
         std::vector<SummaryFigure> figures;  ///< all columns of the summary, in their order
 
         /** \brief The figure of a column. Throws parking::Error for a column outside of the summary. */
@@ -42,10 +45,11 @@ namespace parking
     std::vector<SummaryRow> summarize(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                                       const std::vector<RunRecord> &records);
 
-    /** \brief A table for the terminal. */
-    std::string summaryText(const std::vector<SummaryRow> &rows);
+    /** \brief Tables for a terminal of 80 columns. Problems without a solution have one of their own.
+        \param colours whether the terminal shows colours */
+    std::string summaryText(const std::vector<SummaryRow> &rows, bool colours = false);
 
-    /** \brief The table as Markdown. */
+    /** \brief The tables as Markdown, with quartiles. */
     std::string summaryMarkdown(const std::vector<SummaryRow> &rows);
 
     /** \brief The failure of a planner in a run, on one line. */

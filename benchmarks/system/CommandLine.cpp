@@ -66,7 +66,7 @@ namespace parking
         }
         catch (const po::unknown_option &error)
         {
-            throw Error(unknownName("option", error.get_option_name(), names));
+            throw Error(unknownName("option", error.get_option_name(), names) + " (see --help)");
         }
         catch (const po::too_many_positional_options_error &)
         {
@@ -160,6 +160,20 @@ namespace parking
         if (split == std::string::npos || split == 0)
             throw Error(name + " requires KEY=VALUE, not " + inQuotes(text));
         return {text.substr(0, split), text.substr(split + 1)};
+    }
+
+    std::string wrapped(const std::string &title, const std::vector<std::string> &names)
+    {
+        constexpr std::size_t WIDTH = 80;
+        std::string text = title, indent = "\n  ";
+        std::size_t length = title.size();
+        for (const std::string &name : names)
+        {
+            const bool fits = length + 1 + name.size() <= WIDTH;
+            text += (fits ? " " : indent) + name;
+            length = (fits ? length + 1 : 2) + name.size();
+        }
+        return text + "\n";
     }
 
     void requireWritable(const std::string &file)

@@ -78,6 +78,9 @@ namespace parking
     /** \brief Splits KEY=VALUE. Throws parking::Error naming option \e name without a '=' or without a key. */
     std::pair<std::string, std::string> keyAndValue(const std::string &name, const std::string &text);
 
+    /** \brief A title and names for a help text, in lines of at most 80 characters. */
+    std::string wrapped(const std::string &title, const std::vector<std::string> &names);
+
     /** \brief Throws parking::Error unless \e file can be written: its folder exists and is writable, and it is not a
         folder itself.
         Call it first, so that the program does not fail after its work. */

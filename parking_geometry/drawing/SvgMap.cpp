@@ -200,9 +200,18 @@ namespace parking
         addToLegend(legend_, entry);
     }
 
+    std::string SvgMap::shapes() const
+    {
+        std::string text;
+        for (const std::string &layer : layers_)
+            if (!layer.empty())
+                text += "<g>\n" + layer + "</g>\n";
+        return text;
+    }
+
     std::string SvgMap::scaleBar() const
     {
-        const double length = roundStep(160.0 / scale_), pixels = length * scale_;
+        const double length = roundStep(std::min(160.0, 0.25 * width_) / scale_), pixels = length * scale_;
         const double x = 16.0, y = height_ - 18.0;
         const std::string label = tickLabel(length, length) + " m";
         return "<rect x=\"" + px(x - 8) + "\" y=\"" + px(y - 20) + "\" width=\"" + px(pixels + 16) +
@@ -246,10 +255,7 @@ namespace parking
             "\" viewBox=\"0 0 " + px(width_) + ' ' + px(height_) +
             "\" overflow=\"hidden\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfcfd\"/>\n<path d=\"" + lines +
             "\" fill=\"none\" stroke=\"#e9edf2\"/>\n";
-        for (const std::string &layer : layers_)
-            if (!layer.empty())
-                text += "<g>\n" + layer + "</g>\n";
-        text += scaleBar();
+        text += shapes() + scaleBar();
         text += "<rect x=\"0.5\" y=\"0.5\" width=\"" + px(width_ - 1) + "\" height=\"" + px(height_ - 1) +
                 "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n</svg>\n";
         return text + "<path d=\"" + marks + "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n" + labels;

@@ -144,6 +144,12 @@ namespace parking
             return legend_;
         }
 
+        /** \brief The drawn shapes as SVG groups, one per layer, for panels with another frame. */
+        std::string shapes() const;
+
+        /** \brief A bar of a round length with its label, in the lower left corner. */
+        std::string scaleBar() const;
+
         /** \brief The panel as an svg element with its upper left corner at \e x, \e y pixels, and its ticks. */
         std::string toSvg(double x, double y) const;
 
@@ -152,7 +158,6 @@ namespace parking
         bool isVisible(const std::vector<Eigen::Vector2d> &points) const;
         /** Visible area of an outline in square pixels, negative for a clockwise one. */
         double visibleArea(const Polygon &outline) const;
-        std::string scaleBar() const;
         std::string &layerText(SvgLayer layer);
 
         Box view_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -155,9 +156,11 @@ namespace parking
             return style;
         }
 
-        /** Draws the car along one stretch, \e spacing metres apart and at its end. \return whether any car is
-            visible */
-        bool drawSweep(SvgMap &map, const SampledPath &stretch, const Vehicle &vehicle, double spacing)
+        /** Draws a body at a pose. \return whether it is visible */
+        using DrawBody = std::function<bool(const Pose &, const SvgStyle &)>;
+
+        /** Draws the body along one stretch, \e spacing metres apart and at its end. \return whether any is visible */
+        bool drawSweep(const SampledPath &stretch, double spacing, const DrawBody &drawBody)
         {
             const SvgStyle style = sweepStyle(stretch.back().direction);
             bool seen = false;
@@ -167,10 +170,10 @@ namespace parking
                 const bool last = &state == &stretch.back();
                 if (state.arcLength < next && !last)
                     continue;
-                // Two cars within half a spacing would look like one with a thick outline.
+                // Two bodies within half a spacing would look like one with a thick outline.
                 if (!last && stretch.back().arcLength - state.arcLength < 0.5 * spacing)
                     continue;
-                seen |= map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
+                seen |= drawBody(state.pose, style);
                 next = state.arcLength + spacing;
             }
             return seen;
@@ -183,6 +186,35 @@ namespace parking
             for (const Eigen::Vector2d &point : local)
                 result.push_back(positionOf(compose(pose, {point.x(), point.y(), 0.0})));
             return result;
+        }
+
+        void drawSweptPath(SvgMap &map, const SampledPath &path, const std::string &what, const std::string &body,
+                           const DrawBody &drawBody)
+        {
+            if (path.size() < 2)
+                return;
+            const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
+            const std::vector<SampledPath> stretches = stretchesOf(path);
+            bool swept = false, turned = false;
+            SvgStyle dot = filled("#ffffff", "#0f172a");
+            dot.strokeWidth = 1.4;
+            for (const SampledPath &stretch : stretches)
+            {
+                const int direction = stretch.back().direction;
+                swept |= drawSweep(stretch, spacing, drawBody);
+                std::vector<Eigen::Vector2d> track;
+                for (const PathState &state : stretch)
+                    track.push_back(positionOf(state.pose));
+                const SvgStyle style = stroked(colourOf(direction), 2.4);
+                if (map.drawLine(SvgLayer::Lines, track, style))
+                    map.addLegend({what + (direction < 0 ? ", reverse" : ", forward"), style, SvgSample::Line});
+                if (&stretch != &stretches.back())
+                    turned |= map.drawDot(SvgLayer::Marks, track.back(), 3.4, dot);
+            }
+            if (turned)
+                map.addLegend({"change of direction", dot, SvgSample::Dot});
+            if (swept)
+                map.addLegend({body + " along the " + what, sweepStyle(stretches.front().back().direction)});
         }
     }  // namespace
 
@@ -234,30 +266,16 @@ namespace parking
 
     void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle, const std::string &what)
     {
-        if (path.size() < 2)
-            return;
-        const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
-        const std::vector<SampledPath> stretches = stretchesOf(path);
-        bool swept = false, turned = false;
-        SvgStyle dot = filled("#ffffff", "#0f172a");
-        dot.strokeWidth = 1.4;
-        for (const SampledPath &stretch : stretches)
-        {
-            const int direction = stretch.back().direction;
-            swept |= drawSweep(map, stretch, vehicle, spacing);
-            std::vector<Eigen::Vector2d> track;
-            for (const PathState &state : stretch)
-                track.push_back(positionOf(state.pose));
-            const SvgStyle style = stroked(colourOf(direction), 2.4);
-            if (map.drawLine(SvgLayer::Lines, track, style))
-                map.addLegend({what + (direction < 0 ? ", reverse" : ", forward"), style, SvgSample::Line});
-            if (&stretch != &stretches.back())
-                turned |= map.drawDot(SvgLayer::Marks, track.back(), 3.4, dot);
-        }
-        if (turned)
-            map.addLegend({"change of direction", dot, SvgSample::Dot});
-        if (swept)
-            map.addLegend({"car along the " + what, sweepStyle(stretches.front().back().direction)});
+        drawSweptPath(map, path, what, "car",
+                      [&](const Pose &pose, const SvgStyle &style)
+                      { return map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, pose), style); });
+    }
+
+    void drawDiscPath(SvgMap &map, const SampledPath &path, double radius)
+    {
+        drawSweptPath(map, path, "path", "disc",
+                      [&](const Pose &pose, const SvgStyle &style)
+                      { return map.drawDot(SvgLayer::Sweep, positionOf(pose), radius * map.scale(), style); });
     }
 
     bool drawCar(SvgMap &map, const Pose &pose, const Vehicle &vehicle, const std::string &colour,

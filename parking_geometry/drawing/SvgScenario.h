@@ -25,6 +25,9 @@ namespace parking
         \param what name of the track in the legend */
     void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle, const std::string &what = "path");
 
+    /** \brief As drawPath(), for a disc instead of the car. \param radius metres */
+    void drawDiscPath(SvgMap &map, const SampledPath &path, double radius);
+
     /** \brief Draws a car from above. Its outline is the footprint, the dot is the pose.
 
         \param label entry in the legend, empty for none

@@ -135,6 +135,32 @@ namespace parking
         return ticks;
     }
 
+    std::string darkTheme()
+    {
+        // Pairs of a light and a dark colour with the same meaning.
+        constexpr const char *DARK[][2] = {{"#ffffff", "#14181d"},
+                                           {"#fbfcfd", "#191e24"},
+                                           {"#e9edf2", "#272e36"},
+                                           {"#cbd5e1", "#3b4550"},
+                                           {"#b6c0cd", "#566270"},
+                                           {"#64748b", "#94a3b8"},
+                                           {"#0f172a", "#f1f5f9"},
+                                           {svg_colour::START, "#cbd5e1"},
+                                           {svg_colour::FORWARD, "#6ea0ff"},
+                                           {svg_colour::REVERSE, "#fb923c"},
+                                           {svg_colour::GOAL, "#34d399"},
+                                           {svg_colour::DRIVEN, "#f472b6"},
+                                           {svg_colour::OBSTACLE, "#434e5b"},
+                                           {svg_colour::OBSTACLE_EDGE, "#8492a3"},
+                                           {svg_colour::OUTSIDE, "#20262d"},
+                                           {svg_colour::UNKNOWN, "#5c5132"}};
+        std::string rules;
+        for (const auto &[light, dark] : DARK)
+            for (const std::string attribute : {"fill", "stroke"})
+                rules += "[" + attribute + "=\"" + light + "\"]{" + attribute + ":" + dark + "}";
+        return "@media (prefers-color-scheme: dark){" + rules + "}";
+    }
+
     std::string tickLabel(double value, double step)
     {
         return formatNumber(value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9));

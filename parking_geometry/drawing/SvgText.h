@@ -40,6 +40,11 @@ namespace parking
     /** \brief All multiples of \e step from \e begin to \e end. */
     std::vector<double> roundTicks(double begin, double end, double step);
 
+    /** \brief CSS that shows pictures in dark colours where the reader prefers a dark theme.
+
+        It replaces the colours of svg_colour, and those of frames and texts, in the attributes fill and stroke. */
+    std::string darkTheme();
+
     /** \brief Label of a tick with the number of decimals that \e step requires. */
     std::string tickLabel(double value, double step);
 }  // namespace parking

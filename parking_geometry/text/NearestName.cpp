@@ -11,6 +11,9 @@ namespace parking
 {
     namespace
     {
+        constexpr std::size_t LISTED = 8;     // most names of which a message lists all
+        constexpr std::size_t SUGGESTED = 3;  // names that it suggests of more
+
         /** Edit distance with substitutions, deletions, insertions and swaps of neighbours, with three rows of the
             table. */
         std::size_t editDistance(const std::string &a, const std::string &b)
@@ -39,6 +42,34 @@ namespace parking
             const bool isShortened = name.size() + distance == candidate.size() && 2 * distance <= candidate.size();
             return isShortened || 3 * distance <= std::max(name.size(), candidate.size()) + 2;
         }
+
+        struct Similarity
+        {
+            std::size_t distance;  ///< smaller for more similar names
+            bool isNear;           ///< whether the one may be meant by the other
+        };
+
+        Similarity similarityOf(const std::string &name, const std::string &candidate)
+        {
+            // Cut to a reasonable length, because the table is quadratic.
+            const std::string wanted = lowerCase(name.substr(0, 64)), lower = lowerCase(candidate);
+            const std::size_t edits = editDistance(wanted, lower);
+            // A part of a name, such as golf, is a better match than a name with two different letters.
+            const bool isPart = wanted.size() > 2 && lower.find(wanted) != std::string::npos;
+            return {isPart ? std::min<std::size_t>(2 * edits, 3) : 2 * edits, isPart || isNear(edits, wanted, lower)};
+        }
+
+        /** The names that are most similar, in quotes: "'a', 'b' or 'c'". */
+        std::string nearestNames(const std::string &name, std::vector<std::string> known, const std::string &last)
+        {
+            std::stable_sort(known.begin(), known.end(),
+                             [&name](const std::string &a, const std::string &b)
+                             { return similarityOf(name, a).distance < similarityOf(name, b).distance; });
+            std::string text;
+            for (std::size_t i = 0; i < SUGGESTED; ++i)
+                text += (i == 0 ? "" : i + 1 < SUGGESTED ? ", " : " " + last + " ") + inQuotes(known[i]);
+            return text;
+        }
     }  // namespace
 
     std::string lowerCase(std::string text)
@@ -50,25 +81,15 @@ namespace parking
 
     std::string nearestName(const std::string &name, const std::vector<std::string> &known)
     {
-        // Cut to a reasonable length, because the table is quadratic.
-        const std::string wanted = lowerCase(name.substr(0, 64));
         std::string best;
         std::size_t bestDistance = 0;
         for (const std::string &candidate : known)
-        {
-            const std::string lower = lowerCase(candidate);
-            const std::size_t edits = editDistance(wanted, lower);
-            std::size_t distance = 2 * edits;
-            // A part of a name, such as golf, is a better match than a name with two different letters.
-            const bool isPart = wanted.size() > 2 && lower.find(wanted) != std::string::npos;
-            if (isPart)
-                distance = std::min<std::size_t>(distance, 3);
-            if ((isPart || isNear(edits, wanted, lower)) && (best.empty() || distance < bestDistance))
+            if (const Similarity found = similarityOf(name, candidate);
+                found.isNear && (best.empty() || found.distance < bestDistance))
             {
                 best = candidate;
-                bestDistance = distance;
+                bestDistance = found.distance;
             }
-        }
         return best;
     }
 
@@ -93,6 +114,10 @@ namespace parking
         if (known.empty())
             return message;
         const std::string nearest = nearestName(name, known);
+        if (known.size() > LISTED)
+            return message + (nearest.empty() ? "; the nearest of " + std::to_string(known.size()) + " are " +
+                                                    nearestNames(name, known, "and")
+                                              : "; did you mean " + nearestNames(name, known, "or") + "?");
         message += nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? Known: ";
         for (std::size_t i = 0; i < known.size(); ++i)
             message += (i ? ", " : "") + known[i];

@@ -20,10 +20,11 @@ namespace parking
         many other words are similar to it. */
     bool isMisspelt(const std::string &name, const std::vector<std::string> &known);
 
-    /** \brief The one-line message for an unknown name, with the most similar known name, if any, and all known names.
+    /** \brief The one-line message for an unknown name, with up to eight known names, or the three most similar of
+       more.
 
-        Examples are "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar" and "unknown planner
-        'tree'; known: ...".
+        Examples are "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar", "unknown planner 'tree';
+        known: prm, rrtstar" and "unknown planner 'rrtstr'; did you mean 'rrtstar', 'rrt' or 'prm'?".
         \param what kind of the named thing, for example "planner" */
     std::string unknownName(const std::string &what, const std::string &name, const std::vector<std::string> &known);
 }  // namespace parking

@@ -4,9 +4,14 @@
 project_root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd -P)
 export project_root
 
+# In bold on terminals with colours, and red for a failure, unless NO_COLOR is set (https://no-color.org).
 say()
 {
-    printf '==> %s\n' "$*"
+    if [[ -t 1 && -z ${NO_COLOR:-} && ${TERM:-dumb} != dumb ]]; then
+        printf '\033[%sm==> %s\033[0m\n' "$([[ $1 == FAILED* ]] && printf '1;31' || printf 1)" "$*"
+    else
+        printf '==> %s\n' "$*"
+    fi
 }
 
 # An error of the caller or of the machine: one message, status 2.

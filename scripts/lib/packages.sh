@@ -44,6 +44,7 @@ python3-sphinx               | docs  | Sphinx: makes the site and its search
 furo                         | docs  | Furo: what the site looks like
 python3-myst-parser          | docs  | MyST: reads guides in Markdown
 python3-breathe              | docs  | Breathe: what Doxygen read, for Sphinx
+python3-pil                  | docs  | Pillow: reduces the photograph of scripts/pictures --report
 python3-yaml                 | test docs | PyYAML: reads scenarios for scripts/pictures
 dpkg-dev                     | test package | finds out what packages a library needs
 help2man                     | package | writes the manual pages of the programs

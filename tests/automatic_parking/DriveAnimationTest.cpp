@@ -53,8 +53,8 @@ namespace
                                  "\"wheelbase\":2.8", "x (m)", "</html>"})
             EXPECT_NE(page.find(part), std::string::npos) << part;
         // Every mark was replaced.
-        for (const char *mark :
-             {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@VIEW@", "@LEGEND@", "@DRIVEN@", "@PLOTS@"})
+        for (const char *mark : {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@VIEW@", "@LEGEND@",
+                                 "@DRIVEN@", "@PLOTS@", "@DARK@"})
             EXPECT_EQ(page.find(mark), std::string::npos) << mark;
         // Nothing is fetched: the only address is the name of SVG's namespace.
         EXPECT_EQ(count(page, "://"), count(page, "http://www.w3.org/2000/svg"));
@@ -71,6 +71,9 @@ namespace
         const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t", {}, someDrive());
         EXPECT_EQ(count(page, ">planned trajectory<"), 1u);
         EXPECT_EQ(count(page, ">planned<"), 3u);
+        // The plan is faded below the trajectory: on the map per stretch, and in the legend per direction.
+        EXPECT_EQ(count(page, "stroke-opacity=\"0.25\""), 4u);
+        EXPECT_EQ(count(alone, "stroke-opacity=\"0.25\""), 0u);
         expectError([&] { driveAnimation(openGround(), {}, someDrive(), "t", {}, {someDrive().front()}); },
                     {"1 points"});
     }

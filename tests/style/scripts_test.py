@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What scripts/test and scripts/compare do about packages and options, with dpkg, apt-get, sudo and id replaced."""
 import os
+import pty
 import shutil
 import subprocess
 import tempfile
@@ -167,6 +168,18 @@ class ScriptsTest(unittest.TestCase):
         done = self.run_script('compare', '--', '--help', STATUS='0')
         self.assertEqual(done.returncode, 0)
         self.assertNotIn('Compared', done.stdout)
+
+    def test_headlines_are_bold_on_terminals_with_colours_only(self):
+        command = ['bash', '-c', f'source {ROOT}/scripts/lib/common.sh; say done; say "FAILED: it"']
+        for changes, wanted in (({}, '\033[1m==> done\033[0m\n\033[1;31m==> FAILED: it\033[0m\n'),
+                                ({'NO_COLOR': '1'}, '==> done\n==> FAILED: it\n'), ({'TERM': 'dumb'}, '==> done\n==> FAILED: it\n')):
+            ours, theirs = pty.openpty()
+            subprocess.run(command, stdout=theirs, check=True, env={**os.environ, 'TERM': 'xterm', 'NO_COLOR': '', **changes})
+            os.close(theirs)
+            self.assertEqual(os.read(ours, 4096).decode().replace('\r', ''), wanted)
+            os.close(ours)
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout, '==> done\n==> FAILED: it\n')
 
     def test_wrong_number_of_jobs_is_named(self):
         self.replace('cmake', 'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; fi')

@@ -1,9 +1,11 @@
 """parking_benchmark from a .cfg file to its results: files, database, interrupting and going on, shards."""
 
+import contextlib
 import csv
 import glob
 import math
 import os
+import pty
 import shutil
 import signal
 import sqlite3
@@ -41,6 +43,35 @@ class BenchmarkTest(ProgramTest):
     def setUp(self):
         super().setUp()
         self.write('set.cfg', CONFIG)
+
+
+class OnATerminal(BenchmarkTest):
+    def shown(self, **environment):
+        """What parking_benchmark prints on a terminal."""
+        ours, theirs = pty.openpty()
+        child = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--no-report', '--planner', 'reeds_shepp'],
+                                 cwd=self.folder, stdout=theirs, env={**os.environ, 'TERM': 'xterm', 'NO_COLOR': '', **environment})
+        os.close(theirs)
+        text = b''
+        with contextlib.suppress(OSError):  # the end, on Linux
+            while part := os.read(ours, 4096):
+                text += part
+        os.close(ours)
+        self.assertEqual(child.wait(), 0)
+        return text.decode()
+
+    def test_colours_unless_the_user_or_the_terminal_has_none(self):
+        self.assertIn('\033[1mangled45\033[0m', self.shown())
+        self.assertNotIn('\033', self.shown(NO_COLOR='1'))
+        self.assertNotIn('\033', self.shown(TERM='dumb'))
+        done = self.benchmark('set.cfg', '--output', 'out', '--quiet', '--no-report', '--planner', 'reeds_shepp')
+        self.assertNotIn('\033', done.stdout)
+
+    def test_the_report_is_the_last_line_and_tables_have_80_columns(self):
+        done = self.run_program(BENCHMARK, 'set.cfg', '--output', 'out', '--quiet')
+        lines = done.stdout.splitlines()
+        self.assertEqual(lines[-2:], ['', 'Report: out/report.html'])
+        self.assertLessEqual(max(map(len, lines[:lines.index('Results:')])), 80)
 
 
 class Results(BenchmarkTest):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Do the documents give programs and scripts only options that these have?
+"""Do the documents give programs and scripts only options that these have, and do their helps fit a terminal?
 
 usage: check_options.py ROOT PROGRAMS
 PROGRAMS is the folder with the built programs.
@@ -18,6 +18,7 @@ SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
            'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/results', 'scripts/soak', 'scripts/test',
            'scripts/try-in-bare-root',
            'benchmarks/report/make_report', 'benchmarks/results/make_results', 'benchmarks/paper/make_maps']
+MAX_WIDTH = 100  # characters
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
 
 
@@ -49,6 +50,8 @@ def main(root, folder):
         command = [os.path.join(root, name)]
         with open(command[0], encoding='utf-8') as stream:
             helps[name] = help_of(*([sys.executable, '-B'] if 'python' in stream.readline() else []), *command)
+    wide = [f'{name}: a line of --help has {len(line)} characters: {line.strip()}' for name, each in helps.items()
+            for line in each.splitlines() if len(line) >= MAX_WIDTH]
     options = {name: set(OPTION.findall(each)) | {'--help'} for name, each in helps.items()}
     documents = {}
     for name in ['README.md', 'CONTRIBUTING.md', *glob.glob('docs/**/*.md', root_dir=root, recursive=True)]:
@@ -57,7 +60,7 @@ def main(root, folder):
     # A script is called by its name alone, too.
     options.update({os.path.basename(name): each for name, each in list(options.items())
                     if os.path.basename(name) not in options and not name.startswith('scripts/')})
-    return '\n'.join(strangers(documents, options)) or None
+    return '\n'.join([*strangers(documents, options), *wide]) or None
 
 
 if __name__ == '__main__':

@@ -54,15 +54,15 @@ def main(program, scenarios):
                 if not close(value, row[f'first_solution_{name}_s']):
                     faults.append(f'{row["planner"]}: {name} {value}, not {row[f"first_solution_{name}_s"]}')
         picture = read_picture(output, 'perpendicular')
-        if picture is None or 'data-planner' in picture.content:
+        if picture is None or 'data-planner' in picture.ground or 'data-planner' not in picture.best.content:
             faults.append('the picture of the problem has no map without paths')
-        elif not {row['planner'] for row in rows if row['solved'] != '0'} <= set(picture.paths):
+        elif {row['planner'] for row in rows if row['solved'] != '0'} != set(picture.paths):
             faults.append(f'there are paths of {list(picture.paths)} in the picture')
         else:
             path = picture.paths['improved_astar']
             best = next(run for run in results.of('perpendicular', 'improved_astar') if run.number == path.run)
-            if len(path.cusps) != best.figure('cusps'):
-                faults.append(f'{len(path.cusps)} changes of direction are drawn, {best.figure("cusps")} are in the database')
+            if path.content.count('<circle') != best.figure('cusps'):
+                faults.append(f'{path.content.count("<circle")} changes of direction are drawn, {best.figure("cusps")} are in the database')
         # Parts of a comparison that are put together elsewhere have a report with all runs and their paths.
         parts = []
         for part in ('1/2', '2/2'):
@@ -74,7 +74,7 @@ def main(program, scenarios):
                        stdout=subprocess.DEVNULL)
         with open(os.path.join(whole, 'report.html'), encoding='utf-8') as stream:
             report = stream.read()
-        if not re.search('<polyline class="(forward|reverse) "', report) or '<b>6</b><span>runs</span>' not in report:
+        if not re.search('data-planner="improved_astar".*?<polyline', report, re.DOTALL) or '<b>6</b><span>runs</span>' not in report:
             faults.append('the report of merged parts lacks runs or paths')
         # Where Python lacks the packages of the report, one line says so, and all else is there.
         os.mkdir(os.path.join(folder, 'bin'))

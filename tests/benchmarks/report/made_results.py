@@ -92,6 +92,24 @@ with open(os.path.join(REPORT, 'columns.json'), encoding='utf-8') as _columns:
     FURTHER = [column['name'] for column in json.load(_columns) if column['folded']]
 
 
+def write_picture(folder, problem, paths, extra=''):
+    """The picture of a problem. paths: planner -> number of its run; extra: a shape, or what should be none."""
+    os.makedirs(os.path.join(folder, 'pictures'), exist_ok=True)
+
+    def group(planner, run):
+        return (f'<g data-planner="{planner}" data-run="{run}" data-body="10 30 8"><g><polyline points="10,10 60,10" '
+                f'stroke="#2563eb" fill="none"/><polyline points="60,10 20,40" stroke="#ea580c" fill="none"/></g>'
+                '<g><circle cx="60" cy="10" r="3.4"/></g></g>')
+    ground = f'<rect width="100%" height="100%" fill="#fbfcfd"/><g><path d="M0 0H9" fill="none"/>{extra}</g>'
+    best = ''.join(group(*path) for path in list(paths.items())[:1])
+    panels = ''.join(f'<svg class="planner" viewBox="0 0 100 50"><use href="#ground"/>{group(*path)}</svg>'
+                     for path in paths.items())
+    with open(os.path.join(folder, 'pictures', problem + '.svg'), 'w', encoding='utf-8') as stream:
+        stream.write('<svg xmlns="http://www.w3.org/2000/svg"><style>@media (prefers-color-scheme: dark){[fill="#fbfcfd"]'
+                     f'{{fill:#191e24}}}}</style><svg class="best" viewBox="0 0 100 50">{ground}{best}</svg>'
+                     f'<defs><g id="ground">{ground}</g></defs>{panels}</svg>')
+
+
 def random_records(problems, planners, runs, seed=1):
     """Runs of all kinds."""
     rng = random.Random(seed)

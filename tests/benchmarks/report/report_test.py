@@ -17,7 +17,7 @@ import made_results
 from made_results import MAKE_REPORT, REPORT, record
 
 import plotly.graph_objects  # noqa: E402
-from charts import best_length_at, median_curve, success_points  # noqa: E402
+from charts import best_length_at, colour_of, dash_of, median_curve, success_points  # noqa: E402
 from database import read_results  # noqa: E402
 from formatting import shown, shown_time  # noqa: E402
 from gallery import read_picture  # noqa: E402
@@ -169,12 +169,6 @@ class FiguresTest(Folder):
                          ['15.0 µs', '12.3 ms', '1.50 s', '∞'])
 
 
-PICTURE = '''<svg xmlns="http://www.w3.org/2000/svg"><text>title</text><svg width="100" height="50" viewBox="0 0 100 50">
-<rect width="100%" height="100%" fill="#fff"/><g><path d="M0 0H9" fill="none"/>EXTRA</g><g>
-<polyline points="1.2,3.4 5.1,6.2" data-planner="p" data-run="1" data-direction="forward" stroke="#000"/>
-<polyline points="5.1,6.2 5.2,6.1 9,9" data-planner="p" data-run="1" data-direction="reverse" stroke="#000"/></g></svg></svg>'''
-
-
 class PageTest(Folder):
     def test_stands_alone_and_is_well_formed(self):
         made_results.write(self.folder, made_results.random_records(2, 3, 8))
@@ -219,13 +213,65 @@ class PageTest(Folder):
         _, page = self.page()
         self.assertEqual([row[0] for row in page.tables[0][1:]], ['z', 'x', 'y'])
 
-    def test_who_was_run_on_fewer_problems_is_not_the_best_of_all(self):
-        made_results.write(self.folder, [record(problem, 'all', k, 'solved', 0.5, 8.0) for problem in 'ab' for k in range(3)]
+    def test_planners_are_compared_with_those_on_the_same_problems_only(self):
+        made_results.write(self.folder, [record(problem, name, k, 'solved', time, 8.0) for problem in 'ab' for k in range(3)
+                                         for name, time in (('all', 0.5), ('too', 0.7))]
                            + [record('a', 'easy', k, 'solved', 0.1, 8.0) for k in range(3)])
-        text, _ = self.page()
+        text, page = self.page()
         overall = text[text.index('<h2>Overall'):text.index('<h2>Problems and planners')]
         self.assertEqual(re.findall('class="best[^"]*" data-sort="([^"]*)"', overall), ['0.5'])
-        self.assertTrue('compare only planners with common problems' in overall)
+        self.assertEqual([[row[0] for row in table[1:]] for table in page.tables[:2]], [['all', 'too'], ['easy']])
+        charts = json.loads(re.search('<script type="application/json" id="charts">(.*?)</script>', text).group(1))
+        self.assertEqual([{trace['meta'] for trace in charts[f'success-all-{k}']['data']} for k in range(2)], [{0, 1}, {2}])
+
+    def test_problems_without_a_solution_are_told_apart(self):
+        made_results.write(self.folder, [record('a', name, k, 'solved', 0.5, 8.0, solvable=True) for name in 'pq' for k in range(4)]
+                           + [record('b', 'p', k, 'approximate', length=3.0, solvable=False, **{'planning time': 0.25 + 0.5 * k})
+                              for k in range(4)]
+                           + [record('b', 'q', 0, 'none', solvable=False), record('b', 'q', 1, 'invalid', 0.1, 5.0, solvable=False),
+                              record('b', 'q', 2, 'none', solvable=False, **{'planning time': 0.1})])
+        with sqlite3.connect(self.path('benchmark.db')) as connection:
+            connection.execute('ALTER TABLE runs ADD outcome ENUM')
+            connection.execute('UPDATE runs SET outcome = 7 WHERE plannerid = 2 AND run = 2 AND experimentid = 2')  # a crash
+        connection.close()
+        results = read_results(self.folder)
+        self.assertEqual((results.solvable, results.unsolvable), (['a'], ['b']))
+        text, page = self.page()
+        self.assertIn('<b>2</b><span>problems, 1 without a solution</span>', text)
+        self.assertIn('<b>100 %</b><span>of the runs with a solution solved</span>', text)
+        self.assertEqual(page.tables[0][1][:3], ['p', '4/4', '1/1'])
+        rows = {row[0]: row[1:] for row in page.tables[1][1:]}
+        # p refuses at 0.25, 0.75, 1.25 and 1.75 s of 2; of q, one searches to the end, one claims a path, one crashes.
+        self.assertEqual(rows, {'b: p': ['4/4', '1.00 s', '0', '0'], 'b: q': ['0/3', '–', '2', '▲ 1']})
+        self.assertIn('4/4 refused, 1.00 s', page.tables[2][2][1])
+        with open(self.path('statistics.json'), encoding='utf-8') as stream:
+            found = json.load(stream)
+        self.assertEqual([field['problems'] for field in found['fields']], [['a']])
+        self.assertEqual(found['fields'][0]['virtual_best']['par10'], 0.5)
+
+    def test_only_problems_without_a_solution(self):
+        made_results.write(self.folder, [record('b', 'p', 0, 'none', solvable=False)])
+        text, page = self.page()
+        self.assertEqual((page.wrong, page.open), ([], []))
+        self.assertIn('<b>–</b><span>of the runs with a solution solved</span>', text)
+
+    def test_memory_that_was_not_measured_is_not_shown(self):
+        for sizes, wanted in ((('0', '0'), None), (('0', '30'), '15.0 MB'), (('0', '0', '9'), '&lt; 0.1 MB')):
+            made_results.write(self.folder, [record('a', 'p', k, 'solved', 0.1, 8.0, **{'peak memory': float(size)})
+                                             for k, size in enumerate(sizes)])
+            text, _ = self.page()
+            self.assertEqual('peak memory' in text, wanted is not None)
+            self.assertEqual(wanted is None or wanted in text, True, sizes)
+
+    def test_planners_have_colours_of_their_own(self):
+        names = [f'p{k}' for k in range(36)]
+        self.assertEqual(len({colour_of(names, k) for k in range(12)}), 12)
+        self.assertEqual(len({(colour_of(names, k), dash_of(names, k)) for k in range(36)}), 36)
+        # Results of one planner share its colour.
+        names = ['p (old)', 'p (new)', 'q']
+        self.assertEqual(colour_of(names, 0), colour_of(names, 1))
+        self.assertNotEqual(dash_of(names, 0), dash_of(names, 1))
+        self.assertNotEqual(colour_of(names, 0), colour_of(names, 2))
 
     def test_nothing_solved(self):
         made_results.write(self.folder, [record('a', 'p', 0, 'none')])
@@ -247,18 +293,34 @@ class PageTest(Folder):
 
     def test_paths_are_those_of_the_picture(self):
         made_results.write(self.folder, [record('a', 'p', k, 'solved', 0.1, 8.0 + k) for k in range(2)])
-        os.mkdir(self.path('pictures'))
         for extra, wanted in (('', True), ('<script>alert(1)</script>', False), ('<path d="" onclick="alert(1)"/>', False),
-                              ('<a href="http://far"/>', False), ('<', False)):
-            with open(self.path('pictures/a.svg'), 'w', encoding='utf-8') as stream:
-                stream.write(PICTURE.replace('EXTRA', extra))
+                              ('<a href="http://far"/>', False), ('<style>@import "far"</style>', False), ('<', False)):
+            made_results.write_picture(self.folder, 'a', {'p': 1}, extra)
             self.assertEqual(read_picture(self.folder, 'a') is not None, wanted, extra)
             text, page = self.page()
             self.assertEqual(page.wrong, [])
-            self.assertEqual('<polyline class="forward " points="1,3 5,6"/><polyline class="reverse " points="5,6 9,9"/>'
-                             '<circle class="cusp" cx="5" cy="6" r="5"/>' in text, wanted)
-            self.assertEqual('9.000 m, 1 change of direction, clearance 10.0 cm' in text, wanted)
+            self.assertEqual(text.count('<polyline points="60,10 20,40" stroke="#ea580c"'), 2 if wanted else 0)
+            self.assertEqual('9.000 m, 1 change of direction, clearance 10.0 cm: p; 1 of 1 planners solve it' in text, wanted)
+            self.assertEqual('9.000 m, 1 change of direction, clearance 10.0 cm; 2/2 runs' in text, wanted)
             self.assertNotIn('alert(1)', text)
+
+    def test_pictures_of_two_comparisons_are_side_by_side(self):
+        for name, length in (('old', 9.0), ('new', 8.0)):
+            made_results.write(self.path(name), [record('a', 'p', 0, 'solved', 0.2, length)])
+            made_results.write_picture(self.path(name), 'a', {'p': 0})
+        make_report(self.path('old'), self.path('new'), '--output', self.path('page.html'))
+        with open(self.path('page.html'), encoding='utf-8') as stream:
+            text = stream.read()
+        pictures = text[text.index('<h2>Pictures'):text.index('<h2>Overall')]
+        self.assertEqual(re.findall('<span>(.*?) m, .*?: (.*?);', pictures), [('9.000', 'p (old)'), ('8.000', 'p (new)')])
+
+    def test_planners_without_a_path_are_one_line(self):
+        made_results.write(self.folder, [record('a', 'p', 0, 'solved', 0.1, 8.0), record('a', 'q', 0, 'none'),
+                                         record('a', 'r', 0, 'invalid', 0.1, 8.0)])
+        made_results.write_picture(self.folder, 'a', {'p': 0, 'r': 0})
+        text, _ = self.page()
+        self.assertIn('No valid path: q (no path), r (▲ invalid).', text)
+        self.assertEqual(text.count('<figure class="card" data-p'), 1)
 
 
 class BadInputTest(Folder):

@@ -79,6 +79,15 @@ class Pages(made_results.FolderTest):
         self.assertIn('abcdef', table)
         self.assertEqual(self.rows(made['docs/results/problems.md'])['b'], ['20.0 ms, 1.00', '–'])
 
+    def test_problems_without_a_solution_are_named_with_those_who_refuse_them(self):
+        self.compare(record('a', 'improved_astar', 0, 'solved', 0.01, 10.0, solvable=True),
+                     *(record('b', 'improved_astar', k, 'none', solvable=False, **{'planning time': 0.003}) for k in range(3)),
+                     record('b', 'RRTstar', 0, 'none', solvable=False), record('c', 'RRTstar', 0, 'none', solvable=True),
+                     record('a', 'RRTstar', 0, 'solved', 0.1, 11.0, solvable=True))
+        page = self.made()[0]['docs/results.md']
+        self.assertIn('Without a solution: b, refused in every run by improved_astar after 3.00 ms. Left out, since no planner '
+                      'solves it: c.', page)
+
     def test_where_others_are_ahead_is_said(self):
         self.compare(record('a', 'improved_astar', 0, 'solved', 0.02, 10.0), record('a', 'PRM', 0, 'solved', 0.01, 9.0),
                      record('b', 'improved_astar', 0, 'none'), record('b', 'PRM', 0, 'solved', 0.01, 9.0))

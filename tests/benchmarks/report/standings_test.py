@@ -240,7 +240,7 @@ class FilesTest(made_results.FolderTest):
         self.assertEqual(len(tables['pairs.csv']), 6)
         self.assertEqual([row['wilcoxon_p'] for row in tables['pairs.csv']],
                          [f"{pair['wilcoxon']['p']:.10g}" for pair in found['pairs']])
-        standings = page[page.index('<section id="standings">'):page.index('<section class="problem"')]
+        standings = page[page.index('<section id="standings">'):page.index('<details class="problem"')]
         self.assertIn('>9.06 s</td>', standings)
         self.assertIn('>1–1</td>', standings)
 
@@ -300,7 +300,7 @@ class FilesTest(made_results.FolderTest):
         made_results.write(self.folder, records)
         _, _, page = self.made()
         self.assertLess(len(page.encode()), 10_000_000)
-        kept = page.count('<section class="problem"')
+        kept = page.count('<details class="problem"')
         self.assertEqual(kept, 50)
         self.assertIn(f'sections of {600 - kept} of the 600 problems are left out', page)
         self.assertNotIn(f'href="#problem-{kept}"', page)

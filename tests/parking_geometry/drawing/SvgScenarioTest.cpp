@@ -1,5 +1,7 @@
 #include "parking_geometry/drawing/SvgScenario.h"
 
+#include "parking_geometry/drawing/SvgText.h"
+
 #include <cmath>
 #include <map>
 #include <set>
@@ -122,6 +124,32 @@ TEST(SvgScenario, GroundsDifferInLightnessAlone)
     for (std::size_t i = 0; i < grounds.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             EXPECT_GT(std::abs(lightness(grounds[i]) - lightness(grounds[k])), 7.0) << grounds[i] << ' ' << grounds[k];
+}
+
+TEST(SvgScenario, ADiscMovesAlongAPathLikeACar)
+{
+    const SampledPath states = Path{{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}}.sample(0.1);
+    SvgMap map(viewAround(openGround(), states)), shapes(map.view());
+    drawDiscPath(map, states, 0.9);
+    EXPECT_EQ(labelsOf(map), (Labels{"path, forward", "path, reverse", "change of direction", "disc along the path"}));
+    const std::string text = map.shapes(), radius = " r=\"" + px(0.9 * map.scale()) + "\"";
+    EXPECT_NE(text.find(radius), std::string::npos);
+    EXPECT_EQ(text.find("<polygon"), std::string::npos);
+    EXPECT_EQ(shapes.shapes(), "");
+}
+
+TEST(SvgText, TheDarkThemeReplacesEveryColour)
+{
+    const std::string rules = darkTheme();
+    for (const std::string colour :
+         {svg_colour::FORWARD, svg_colour::REVERSE, svg_colour::START, svg_colour::GOAL, svg_colour::OBSTACLE,
+          svg_colour::OBSTACLE_EDGE, svg_colour::OUTSIDE, svg_colour::UNKNOWN, svg_colour::DRIVEN, svg_colour::PLANNED})
+        for (const char *attribute : {"fill", "stroke"})
+        {
+            const std::string selector = std::string("[") + attribute + "=\"" + colour + "\"]{";
+            EXPECT_NE(rules.find(selector), std::string::npos) << selector;
+            EXPECT_EQ(rules.find(selector + attribute + ":" + colour), std::string::npos) << selector;
+        }
 }
 
 TEST(SvgScenario, LegendsNameWhatIsSeenOfAPath)

@@ -46,6 +46,17 @@ TEST(NearestName, SuggestsNothingForWhatResemblesNone)
     EXPECT_EQ(nearestName("gf8", {"tpcap", "vw_golf8"}), "");
 }
 
+TEST(NearestName, ListsEightNamesAndSuggestsThreeOfMore)
+{
+    std::vector<std::string> names = {"car", "grid8", "grid16", "grid32", "e", "f", "g", "h"};
+    EXPECT_EQ(unknownName("model", "grid64", names),
+              "unknown model 'grid64'; did you mean 'grid8'? Known: car, grid8, grid16, grid32, e, f, g, h");
+    names.emplace_back("i");
+    EXPECT_EQ(unknownName("model", "grid", names), "unknown model 'grid'; did you mean 'grid8', 'grid16' or 'grid32'?");
+    EXPECT_EQ(unknownName("model", "frobnicate", names),
+              "unknown model 'frobnicate'; the nearest of 9 are 'car', 'grid8' and 'grid16'");
+}
+
 TEST(NearestName, TellsAMisspeltNameFromAnotherOne)
 {
     const std::vector<std::string> keys = {"image", "negate", "free_thresh"};
