@@ -129,7 +129,7 @@ namespace parking
                     if (body.isFree(goal))
                     {
                         goalClearance = std::max(goalClearance, body.exactClearance(goal));
-                        if (isSamePose(scenario_.start, goal, SAME_POSE))
+                        if (isSamePose(scenario_.start, goal, PlannerParameters().goalTolerance))
                             return stay(goal);
                     }
                 if (goalClearance < 0.0)

@@ -55,6 +55,7 @@ namespace ompl::geometric
 
         constexpr double FARTHEST_DUBINS = 1e7;  // coordinates in turning radii
         constexpr double SAME_POSE = 1e-12;      // metres and radians
+        constexpr double STAYS = 1e-3;           // metres that OMPL may drive to a goal within the tolerance
 
         constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
         constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
@@ -462,6 +463,8 @@ namespace ompl::geometric
             OMPL_ERROR("%s: There are no valid initial states", getName().c_str());
             failure = ob::PlannerStatus::INVALID_START;
             query_->outcome = PlanOutcome::InvalidStart;
+            if (parameters_.escape)
+                query_->reason = parking::search::invalidStart(parameters_);
             return false;
         }
         const GoalReading reading = readGoals(*region, ptc);
@@ -493,6 +496,10 @@ namespace ompl::geometric
             query_->starts.push_back(parking::poseOf(state));
             query_->planner.addStart(query_->starts.back());
         }
+        if (query_->starts.empty())
+            for (const Pose &start : query_->storedStarts)
+                if (query_->planner.addEscapes(start))
+                    query_->starts.push_back(start);
         return !query_->starts.empty();
     }
 
@@ -616,6 +623,16 @@ namespace ompl::geometric
     PlanOutcome ImprovedAStar::outcome() const
     {
         return query_->outcome;
+    }
+
+    std::optional<parking::Escape> ImprovedAStar::escape() const
+    {
+        return query_->begun ? query_->planner.escape() : std::nullopt;
+    }
+
+    std::string ImprovedAStar::notice() const
+    {
+        return query_->begun ? query_->planner.notice() : std::string();
     }
 
     const std::string &ImprovedAStar::reason() const
@@ -753,9 +770,13 @@ namespace ompl::geometric
         expanded_ = query_->planner.expanded();
         if (query_->hasSolution)
         {
-            query_->outcome = PlanOutcome::Solved;
+            const bool escapes = query_->planner.escape().has_value();
+            query_->outcome = escapes ? PlanOutcome::Escaped : PlanOutcome::Solved;
             query_->reason.clear();
-            return report(query_->states, false);
+            std::vector<Pose> states = query_->states;
+            if (escapes)
+                endAtGoal(states);
+            return report(std::move(states), escapes);
         }
         if (parameters_.approximate)
             if (const ob::PlannerStatus status = approach(ptc, stop))
@@ -775,10 +796,14 @@ namespace ompl::geometric
         if (!hasPath)
             return ob::PlannerStatus::TIMEOUT;
         std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
-        // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
-        // planner has been told to stop.
+        // Up to where the motion validator agrees, from the end of an escape. With a checker that takes long there is
+        // no time for that once the planner has been told to stop.
+        std::size_t first = 0;
+        while (query_->planner.escape() && first + 1 < states.size() &&
+               !query_->stateEnvironment->isFree(states[first]))
+            ++first;
         if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
-            for (std::size_t i = 1; i < states.size(); ++i)
+            for (std::size_t i = first + 1; i < states.size(); ++i)
                 if (!query_->stateEnvironment->isMotionFree(states[i - 1], states[i]))
                     states.resize(i);
         if (query_->outcome == PlanOutcome::Timeout)
@@ -814,10 +839,22 @@ namespace ompl::geometric
         parking::endAtGoal(poses, query_->goals, query_->stateSpacing(), query_->turnsOnTheSpot);
     }
 
+    /** Whether OMPL would drive a loop, or through obstacles, from a start to a goal within the tolerance. */
+    bool ImprovedAStar::swerves(const Pose &start, const Pose &goal) const
+    {
+        ob::ScopedState<> from(si_), to(si_);
+        parking::setPose(from.get(), start);
+        parking::setPose(to.get(), goal);
+        return si_->distance(from.get(), to.get()) > std::max(STAYS, 2.0 * query_->parameters.goalTolerance) ||
+               !query_->stateEnvironment->isMotionFree(start, goal);
+    }
+
     ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)
     {
         if (!approximate)
             endAtGoal(poses);
+        if (!approximate && query_->path.pieces.empty() && swerves(poses[0], poses[1]))
+            poses.resize(1);
         const std::shared_ptr<PathGeometric> path = geometricPath(poses);
         query_->solution.clear();
         if (!approximate)

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,14 @@ namespace ompl::geometric
 
         Any GoalSampleableRegion with any number of goals. The path ends exactly at the goal that is cheapest to reach.
         If all goals collide or cannot be reached, the path ends as close to one as possible, and the solution is
-        approximate (parameter `approximate`).
+        approximate (parameter `approximate`). A start within `goal_tolerance` of a goal yields an
+        exact path of these two states, or of the start alone if the space would connect them by a longer curve.
+
+        \par Starts in contact
+
+        With the parameter `escape` and parking::FclFootprintChecker, a path may begin in shallow contact. It is
+        reported as approximate, even if it ends at a goal, because its first states are invalid. outcome() is then
+        Escaped, and escape() describes the motion.
 
         \par Several calls of solve()
 
@@ -139,6 +147,12 @@ namespace ompl::geometric
             left to try, even if an approximate path was reported. */
         parking::search::PlanOutcome outcome() const;
 
+        /** \brief The escape with which the path of the last solve() begins, if any (parameter `escape`). */
+        std::optional<parking::Escape> escape() const;
+
+        /** \brief One line on an escape, or on straights shorter than the parameters require; empty otherwise. */
+        std::string notice() const;
+
         /** \brief One line that explains why there is no solution; empty if unknown or if only the time limit was met.
          */
         const std::string &reason() const;
@@ -180,6 +194,7 @@ namespace ompl::geometric
         bool takeImprovement(const parking::Path &path, double plannedCost,
                              const base::PlannerTerminationCondition &ptc);
         void endAtGoal(std::vector<parking::Pose> &poses) const;
+        bool swerves(const parking::Pose &start, const parking::Pose &goal) const;
         base::PlannerStatus report(std::vector<parking::Pose> poses, bool approximate);
 
         parking::PlannerParameters parameters_;

@@ -83,6 +83,8 @@ namespace parking
                 return "invalid_start";
             case search::PlanOutcome::InvalidGoal:
                 return "invalid_goal";
+            case search::PlanOutcome::Escaped:
+                return "escaped";
             case search::PlanOutcome::Timeout:
                 break;
         }
@@ -156,7 +158,7 @@ namespace parking
         states.front().pose.yaw = wrapAngle(states.front().pose.yaw);
         const Pose &goal = scenario_.goals.at(plan.goal);
         Pose &end = states.back().pose;
-        if (plan.outcome == search::PlanOutcome::Solved && isSamePose(goal, end, SAME))
+        if (plan.outcome != search::PlanOutcome::Approximate && isSamePose(goal, end, SAME))
             end = {goal.x, goal.y, wrapAngle(goal.yaw)};
         return states;
     }

@@ -37,11 +37,13 @@ namespace parking
         /** \brief Whether there is a path, to a goal or only towards one. */
         bool hasPath() const
         {
-            return outcome == search::PlanOutcome::Solved || outcome == search::PlanOutcome::Approximate;
+            return outcome == search::PlanOutcome::Solved || outcome == search::PlanOutcome::Approximate ||
+                   outcome == search::PlanOutcome::Escaped;
         }
     };
 
-    /** \brief Names of outcomes in results: exact, approximate, infeasible, timeout, invalid_start, invalid_goal. */
+    /** \brief Names of outcomes in results: exact, approximate, infeasible, timeout, invalid_start, invalid_goal,
+        escaped. */
     std::string statusName(search::PlanOutcome outcome);
 
     /** \brief Plans in a scenario without OMPL: from scenario to path, and from path to trajectory.

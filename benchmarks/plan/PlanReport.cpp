@@ -22,6 +22,7 @@ namespace parking
     {
         constexpr double MS = 1e3;                // milliseconds in a second
         constexpr double TRAJECTORY_STEP = 0.05;  // seconds between samples
+        constexpr double NO_DISTANCE = 1e-6;      // metres from the goal, of paths that end there
         constexpr double DEGREES = 180.0 / PI;    // in a radian
 
         /** Whether the car steers at any time. */
@@ -151,7 +152,9 @@ namespace parking
         /** Figures of a path that the referee rejects are meaningless. */
         std::string statusOf(const PlanRun &run)
         {
-            return run.path && !run.hasValidPath() ? "invalid_path" : toString(run.status);
+            if (run.path && !run.hasValidPath())
+                return "invalid_path";
+            return run.escapes && run.goalDistance < NO_DISTANCE ? "escaped" : toString(run.status);
         }
 
         json runJson(const PlanRun &run)
@@ -255,6 +258,7 @@ namespace parking
                   {"goals", std::move(goals)},
                   {"status", statusOf(run)},
                   {"reason", run.reason},
+                  {"notice", run.notice},
                   {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
                   {"planning_time_ms", std::move(times)},
                   {"runs", std::move(runs)},
@@ -295,6 +299,8 @@ namespace parking
                            formatNumber(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
         if (!run.reason.empty())
             text += "  " + run.reason + "\n";
+        if (!run.notice.empty())
+            text += "  " + run.notice + "\n";
         if (result.runs.size() > 1)
         {
             std::size_t solved = 0;
@@ -308,7 +314,8 @@ namespace parking
             if (run.status == PlanStatus::Approximate)
                 text += ", ends " + formatNumber(run.goalDistance, 2) + " m from the goal";
             text += run.hasValidPath()
-                        ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
+                        ? "\n  " + std::string(run.escapes ? "after the escape " : "") + "checked again at " +
+                              std::to_string(run.path->recheck.states) + " poses: valid\n"
                         : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
         }
         if (result.trajectory)

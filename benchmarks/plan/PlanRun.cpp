@@ -106,6 +106,8 @@ namespace parking
         }
         run.status = statusOf(status, prepared);
         const bool exact = run.status == PlanStatus::Exact;
+        if (improved != nullptr)
+            run.notice = improved->notice();
         if (!exact && improved != nullptr)
             run.reason = improved->reason();
         // A planner that approaches a goal in collision reports that it cannot reach it, but not why.
@@ -122,6 +124,14 @@ namespace parking
         {
             run.status = withoutSolution(prepared);
             return run;
+        }
+        if (const auto escape = improved != nullptr ? improved->escape() : std::nullopt)
+        {
+            run.escapes = true;
+            const Path rest = planned.path.rest(std::min(std::abs(escape->arc.length), planned.length));
+            Scenario fromThere = problem.scenario();
+            fromThere.start = rest.start;
+            planned.recheck = Referee(fromThere).check(rest, false);
         }
         run.goalDistance = distanceToGoals(problem.scenario(), planned.end);
         run.path = std::move(planned);

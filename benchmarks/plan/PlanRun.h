@@ -27,7 +27,10 @@ namespace parking
     struct PlanRun
     {
         PlanStatus status{PlanStatus::Timeout};  ///< status reported by the planner; isSolved() is the checked result
-        std::string reason;             ///< one line on why there is no exact solution, from planners that report it
+        std::string reason;  ///< one line on why there is no exact solution, from planners that report it
+        std::string notice;  ///< of improved A*: see ImprovedAStar::notice()
+        bool escapes{
+            false};  ///< whether the path begins with an escape from contact, which the second check leaves out
         double planningTime{0.0};       ///< wall-clock time in seconds, without map loading
         double cpuTime{0.0};            ///< processor time of all threads in seconds, with map loading
         double firstSolutionTime{0.0};  ///< time of the first solution in seconds; only with an exact solution

@@ -19,6 +19,7 @@ namespace parking
         constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
         constexpr double ROUNDING_TURN = 1e-9;  // radians; a smaller difference is rounding of headings
         constexpr double SHORTEST_LINE = 1e-7;  // metres; a shorter line is rounding
+        constexpr double STAYS = 1e-5;          // metres and radians between two states of a car that stays where it is
         constexpr double SAME = 1e-6;           // metres and radians between a pose and the goal that it equals
 
         std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
@@ -126,21 +127,25 @@ namespace parking
             result.path.start = result.end = scenario.start;
             return result;
         }
-        const bool straight = problem.curveSpace().kind() == SpaceKind::SE2;
-        result.path = straight ? linePath(path, scenario.vehicle) : curvePath(problem, path);
+        // The curve between two poses so near to each other is much longer than their distance; no car drives it.
+        const bool stays = exact && poses.size() <= 2 && isSamePose(poses.front(), poses.back(), STAYS);
+        const bool straight = stays || problem.curveSpace().kind() == SpaceKind::SE2;
+        result.path = stays      ? Path{poses.front(), {}}
+                      : straight ? linePath(path, scenario.vehicle)
+                                 : curvePath(problem, path);
         // Before start and end are rounded to the requested poses.
         result.recheck = straight ? referee.checkLines(poses, exact) : referee.check(result.path, exact);
         result.path.start = {scenario.start.x, scenario.start.y, wrapAngle(scenario.start.yaw)};
         result.end = result.path.end();
         if (exact)
             for (const Pose &goal : scenario.goals)
-                if (isSamePose(goal, result.end, SAME))
+                if (isSamePose(goal, result.end, stays ? STAYS : SAME))
                     result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
         result.cusps = result.path.cusps();
         // Interpolation of the planner, which on a plain SE2 space is not a motion of a car.
         if (straight)
         {
-            for (std::size_t i = 1; i < poses.size(); ++i)
+            for (std::size_t i = 1; i < poses.size() && !stays; ++i)
                 result.length += positionDistance(poses[i], poses[i - 1]);
             poses.front() = result.path.start;
             poses.back() = result.end;

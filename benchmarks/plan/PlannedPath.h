@@ -44,6 +44,8 @@ namespace parking
         and a turn to its final heading. For the paper's grid paths, whose headings are those of their lines, this is
         exactly the planned path.
 
+        An exact path of one state, or of two within 1e-5 m and 1e-5 rad, has no motion: the start is at a goal.
+
         A path is read up to its first state outside of the world, for example one that is not finite.
 
         \param exact whether the planner reports that the path ends at a goal. If it does up to rounding, the end is set

@@ -3,12 +3,14 @@
 #include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
+#include "state_validity/sweeps/Escape.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace parking::search
 {
@@ -66,6 +68,14 @@ namespace parking::search
             The arguments are the side of a cell in metres and the number of equal parts of the circle, 8 to 128.
             Returns an empty function if the environment cannot prove collisions. */
         virtual BlockedHeadings blockedHeadings(double /*side*/, int /*headings*/)
+        {
+            return {};
+        }
+
+        /** \brief Motions that lead the car out of a contact at \e pose that is at most \e maxDepth metres deep,
+            shortest first; see EscapeFinder. Empty if the environment cannot measure depths. */
+        virtual std::vector<Escape> escapes(const Pose & /*pose*/, double /*maxDepth*/, double /*turningRadius*/,
+                                            bool /*forwardOnly*/)
         {
             return {};
         }

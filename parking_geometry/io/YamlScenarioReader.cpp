@@ -1,4 +1,5 @@
 #include "parking_geometry/Error.h"
+#include "parking_geometry/GoalRegion.h"
 #include "parking_geometry/io/ScenarioParts.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/ReadFile.h"
@@ -143,6 +144,26 @@ namespace parking
             return slot;
         }
 
+        std::vector<Pose> readGoalRegion(const YamlMap &scenario, const Eigen::Vector2d &offset)
+        {
+            const YamlMap map = scenario.map("goal");
+            map.allowOnly({"pose", "tolerance", "yaw_tolerance", "heading"});
+            GoalRegion region;
+            region.pose = toLocal(map.pose("pose"), offset);
+            region.tolerance = map.numberOr("tolerance", 0.0);
+            region.yawTolerance = map.numberOr("yaw_tolerance", 0.0);
+            if (map.has("heading"))
+                region.heading = static_cast<GoalHeading>(map.choice("heading", {"fixed", "both", "any"}));
+            try
+            {
+                return region.goals();
+            }
+            catch (const Error &error)
+            {
+                scenario.failAt("goal", error.what());
+            }
+        }
+
         void readGoals(Scenario &scenario, const YamlMap &map)
         {
             if (map.has("goal") == map.has("slot"))
@@ -150,7 +171,9 @@ namespace parking
                                                        : "neither goal nor slot is given; one of them must be");
             if (map.has("goal"))
             {
-                scenario.goals = {toLocal(map.pose("goal"), scenario.worldOffset)};
+                scenario.goals = map.node("goal").IsMap()
+                                     ? readGoalRegion(map, scenario.worldOffset)
+                                     : std::vector<Pose>{toLocal(map.pose("goal"), scenario.worldOffset)};
                 return;
             }
             scenario.slot = readSlot(map.map("slot"), scenario.worldOffset);

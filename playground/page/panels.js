@@ -18,7 +18,7 @@ const Panels = (() => {
   }
   function report(text) { byId('summary').textContent = text; }
 
-  const OUTCOMES = ['Parked', 'Only near the goal', 'No path', 'Time limit', 'The start is blocked', 'The goal is blocked'];
+  const OUTCOMES = ['Parked', 'Only near the goal', 'No path', 'Time limit', 'The start is blocked', 'The goal is blocked', 'Led out of contact'];
   const fixed = (value, digits, unit = '') => Number.isFinite(value) ? value.toFixed(digits) + unit : '\u2013';
   const clearance = metres => !Number.isFinite(metres) ? '\u2013' : metres < 0.1 ? fixed(1000 * metres, 0, ' mm') : fixed(metres, 2, ' m');
   // An unfinished plan under the short limit while dragging has no result yet.

@@ -345,7 +345,7 @@ extern "C"
                 limits.expansions = expansions > 0.0 ? static_cast<std::uint64_t>(expansions) : 0;
                 session().plan = planner().plan(session().parameters, limits);
                 showPlan(*session().plan);
-                session().message = session().plan->reason;
+                session().message = session().plan->reason.empty() ? session().plan->notice : session().plan->reason;
             });
     }
 

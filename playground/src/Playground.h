@@ -58,10 +58,10 @@ extern "C"
     /** \brief Outputs of playground_output(). */
     enum PlaygroundOutput
     {
-        /** Outcome (0 exact, 1 approximate, 2 infeasible, 3 timeout, 4 invalid start, 5 invalid goal), length, cusps,
-            clearance, cost, bound, expansions, motions generated, curves attempted, poses checked, milliseconds of
-            planning, milliseconds of loading, index of the goal, whether it is for a disc, radius of the disc, minimum
-            turning radius. */
+        /** Outcome (0 exact, 1 approximate, 2 infeasible, 3 timeout, 4 invalid start, 5 invalid goal, 6 escaped),
+           length, cusps, clearance, cost, bound, expansions, motions generated, curves attempted, poses checked,
+           milliseconds of planning, milliseconds of loading, index of the goal, whether it is for a disc, radius of the
+           disc, minimum turning radius. */
         PLAYGROUND_SUMMARY,
         PLAYGROUND_PATH,        ///< rows x, y, yaw, direction, curvature, metres driven, clearance
         PLAYGROUND_PIECES,      ///< rows curvature, length, sharpness, turn

@@ -257,6 +257,13 @@ class Result(Drive):
     def reason(self) -> str:
         """Reason why there is no exact solution; empty otherwise."""
     @property
+    def notice(self) -> str:
+        """One line on an escape, or on straights shorter than the parameters require; empty otherwise."""
+    @property
+    def escape(self) -> Optional[Dict[str, float]]:
+        """Escape from contact with which the path begins: depth of the contact and signed length in metres, curvature
+        in 1/m. None without an escape."""
+    @property
     def bound(self) -> float:
         """Ratio of the cost to a lower bound of the cost of any path (see docs/planner.md); infinite if unknown."""
     @property
@@ -346,7 +353,9 @@ def plan(scenario: Scenario, time_limit: float = 1.0, anytime: bool = False, max
          obstacle_loading: str = 'lazy', adaptive_resolution: bool = True, analytic_expansion: bool = True,
          reverse_penalty: float = 0.0, gear_change_penalty: float = 0.5, steering_change_penalty: float = 0.1,
          preferred_clearance: float = 0.1, clearance_cost: float = 10.0, smoothing: str = 'bspline',
-         shortening: bool = True, approximate: bool = True, max_memory_mb: int = 512) -> Result:
+         shortening: bool = True, approximate: bool = True, max_memory_mb: int = 512,
+         goal_tolerance: float = 1e-05, initial_straight: float = 0.0, final_straight: float = 0.0,
+         escape: bool = False, max_escape_depth: float = 0.05) -> Result:
     """Plans a path from the start of a scenario to its goal, or to the nearest of several.
 
     time_limit : seconds
@@ -366,7 +375,9 @@ def plan_batch(scenarios: Iterable[Scenario], threads: int = 0, time_limit: floa
                adaptive_resolution: bool = True, analytic_expansion: bool = True, reverse_penalty: float = 0.0,
                gear_change_penalty: float = 0.5, steering_change_penalty: float = 0.1,
                preferred_clearance: float = 0.1, clearance_cost: float = 10.0, smoothing: str = 'bspline',
-               shortening: bool = True, approximate: bool = True, max_memory_mb: int = 512) -> List[Result]:
+               shortening: bool = True, approximate: bool = True, max_memory_mb: int = 512,
+               goal_tolerance: float = 1e-05, initial_straight: float = 0.0, final_straight: float = 0.0,
+               escape: bool = False, max_escape_depth: float = 0.05) -> List[Result]:
     """Plans many scenarios in parallel and returns their Results in the same order.
 
     threads : number of threads; 0 for one per core

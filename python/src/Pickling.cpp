@@ -72,6 +72,23 @@ namespace parking::python
             return py::make_tuple(stateOf(path.start), pieces);
         }
 
+        py::object stateOf(const std::optional<Escape> &escape)
+        {
+            if (!escape)
+                return py::none();
+            return py::make_tuple(stateOf(escape->start), escape->arc.curvature, escape->arc.length, escape->depth);
+        }
+
+        std::optional<Escape> escapeOf(const py::object &state)
+        {
+            if (state.is_none())
+                return std::nullopt;
+            const auto values = py::cast<py::tuple>(state);
+            return Escape{poseOf(values[0]),
+                          {py::cast<double>(values[1]), py::cast<double>(values[2])},
+                          py::cast<double>(values[3])};
+        }
+
         Path pathOfState(const py::handle &state)
         {
             const auto values = py::cast<py::tuple>(state);
@@ -181,7 +198,8 @@ namespace parking::python
                               plan.isDisc, py::make_tuple(plan.planningTime, plan.loadingTime, work.loadingTime),
                               py::make_tuple(work.expanded, work.generated, work.connections, work.heuristicCells,
                                              work.openListOperations, work.openListComparisons, plan.checks.states,
-                                             plan.checks.byField, plan.checks.byCircles, plan.checks.byEdges));
+                                             plan.checks.byField, plan.checks.byCircles, plan.checks.byEdges),
+                              plan.notice, stateOf(plan.escape));
     }
 
     std::shared_ptr<PlanHandle> planOf(const py::tuple &state)
@@ -211,6 +229,8 @@ namespace parking::python
         const auto numbers = py::cast<std::vector<std::uint64_t>>(state[10]);
         for (std::size_t i = 0; i < std::min(numbers.size(), std::size(counts)); ++i)
             *counts[i] = numbers[i];
+        plan.notice = py::cast<std::string>(state[11]);
+        plan.escape = escapeOf(state[12]);
         return std::make_shared<PlanHandle>(py::cast<std::shared_ptr<ScenarioHandle>>(state[0]), std::move(plan),
                                             parametersFrom(state[1]));
     }

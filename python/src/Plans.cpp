@@ -215,10 +215,30 @@ namespace parking::python
 It is True if the path reaches a goal exactly. Arrays are created on first use and then kept.)")
             .def_property_readonly(
                 "status", [](const PlanHandle &self) { return statusName(self.plan().outcome); },
-                "Status: exact, approximate, timeout, infeasible, invalid_start or invalid_goal.")
+                "Status: exact, approximate, timeout, infeasible, invalid_start, invalid_goal or escaped (a path to a "
+                "goal "
+                "that begins with an escape from contact).")
             .def_property_readonly(
                 "reason", [](const PlanHandle &self) { return self.plan().reason; },
                 "Reason why there is no exact solution; empty otherwise.")
+            .def_property_readonly(
+                "notice", [](const PlanHandle &self) { return self.plan().notice; },
+                "One line on an escape, or on straights shorter than the parameters require; empty otherwise.")
+            .def_property_readonly(
+                "escape",
+                [](const PlanHandle &self) -> py::object
+                {
+                    if (!self.plan().escape)
+                        return py::none();
+                    const Escape &escape = *self.plan().escape;
+                    py::dict result;
+                    result["depth"] = escape.depth;
+                    result["length"] = escape.arc.length;
+                    result["curvature"] = escape.arc.curvature;
+                    return result;
+                },
+                "Escape from contact with which the path begins, a dict: depth of the contact and signed length in "
+                "metres, curvature in 1/m. None without an escape.")
             .def_property_readonly(
                 "cost", [](const PlanHandle &self) { return self.plan().cost; },
                 "Cost in metres: length and penalties; infinite without a solution.")

@@ -53,6 +53,89 @@ namespace
             }
     }
 
+    TEST(PlannerGoals, AStartAtAGoalStays)
+    {
+        const Pose beside = compose(AISLE, {0.0, 5e-6, 1e-6}), farther = compose(AISLE, {0.0, 2e-5, 0.0});
+        for (const auto &[space, model] : VARIANTS)
+        {
+            PlanningProblem problem(space, SLOT_SCENE, model);
+            EXPECT_EQ(problem.from({AISLE}).to({FAR, beside}).solve(), Status::EXACT_SOLUTION);
+            // A space of curves would connect the two states by a manoeuvre.
+            ASSERT_EQ(problem.poses().size(), space == Space::SE2 ? 2u : 1u);
+            EXPECT_TRUE(isSamePose(problem.poses().front(), AISLE, SAME));
+            EXPECT_TRUE(isSamePose(problem.poses().back(), space == Space::SE2 ? beside : AISLE, SAME));
+            EXPECT_LT(problem.path().length(), 2e-5);
+            EXPECT_TRUE(problem.path().check());
+            EXPECT_EQ(problem.planner->outcome(), Outcome::Solved);
+            EXPECT_TRUE(problem.planner->solutionPath()->pieces.empty());
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION) << "again";
+        }
+        PlanningProblem problem(Space::ReedsShepp, SLOT_SCENE);
+        EXPECT_EQ(problem.from({AISLE}).to({farther}).solve(), Status::EXACT_SOLUTION);
+        EXPECT_GT(problem.planner->solutionPath()->length(), 0.01);
+        problem.expectSound();
+        const Pose ahead = compose(AISLE, {5e-6, 0.0, 0.0});
+        EXPECT_EQ(problem.to({ahead}).solve(), Status::EXACT_SOLUTION);
+        ASSERT_EQ(problem.poses().size(), 2u);
+        EXPECT_TRUE(isSamePose(problem.poses().back(), ahead, SAME));
+    }
+
+    TEST(PlannerGoals, TheLastMetresAreStraight)
+    {
+        for (const Space space : {Space::SE2, Space::ReedsShepp, Space::Dubins})
+        {
+            PlanningProblem problem(space, SLOT_SCENE, "final_straight=2.5");
+            EXPECT_EQ(problem.from({HERE}).to({NEAR, FAR}).solve(), Status::EXACT_SOLUTION);
+            problem.expectSound();
+            const parking::PathPiece last = problem.planner->solutionPath()->pieces.back();
+            EXPECT_EQ(last.curvature, 0.0);
+            EXPECT_GE(last.driven(), 2.5 - 1e-9);
+            EXPECT_EQ(problem.planner->notice(), "");
+        }
+        // Any checker and motion validator.
+        PlanningProblem own(
+            Space::ReedsShepp, SLOT_SCENE.bounds, [](const Pose &pose) { return pose.x < 4.0; }, "final_straight=9");
+        EXPECT_EQ(own.from({HERE}).to({Pose{0.0, -5.0, 0.0}}).solve(), Status::EXACT_SOLUTION);
+        own.expectSound();
+        EXPECT_EQ(own.planner->solutionPath()->pieces.back().curvature, 0.0);
+        EXPECT_GE(own.planner->solutionPath()->pieces.back().length, 9.0 - 1e-9);
+    }
+
+    TEST(PlannerGoals, AStartInContactIsLedOutOnlyIfRequired)
+    {
+        const Scene scene = square({box(-4.0, 0.0, -1.3, 5.0)});
+        const parking::Vehicle car;
+        // Its front is 2 cm in the obstacle, turned towards it.
+        const Pose start{-2.5, -car.wheelbase - car.frontOverhang + 0.02, 0.5 * parking::PI};
+        PlanningProblem problem(Space::ReedsShepp, scene);
+        EXPECT_EQ(problem.from({start}).to({NEAR}).solve(), Status::INVALID_START);
+        EXPECT_FALSE(problem.planner->escape());
+        problem.set("escape=1");
+        EXPECT_EQ(problem.solve(), Status::APPROXIMATE_SOLUTION) << "never exact";
+        EXPECT_EQ(problem.planner->outcome(), Outcome::Escaped);
+        ASSERT_TRUE(problem.planner->escape());
+        EXPECT_NEAR(problem.planner->escape()->depth, 0.02, 1e-5);
+        EXPECT_LT(problem.planner->escape()->arc.length, 0.0);
+        EXPECT_NE(problem.planner->notice().find("2.0 cm deep"), std::string::npos) << problem.planner->notice();
+        EXPECT_TRUE(isSamePose(problem.poses().front(), start, SAME));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), NEAR, SAME));
+        EXPECT_FALSE(problem.pdef->hasExactSolution());
+        const parking::Path rest =
+            problem.planner->solutionPath()->rest(std::abs(problem.planner->escape()->arc.length) + 1e-9);
+        EXPECT_TRUE(PolygonOracle(scene.obstacles, scene.bounds).isPathFree(rest, car, 0.005));
+        EXPECT_EQ(problem.solve(), Status::APPROXIMATE_SOLUTION) << "again";
+        problem.set("max_escape_depth=0.0199");
+        EXPECT_EQ(problem.solve(), Status::INVALID_START);
+        EXPECT_NE(problem.planner->reason().find("max_escape_depth"), std::string::npos) << problem.planner->reason();
+        EXPECT_FALSE(problem.planner->escape());
+        // A valid start is preferred; another checker has no depths.
+        problem.set("max_escape_depth=0.05");
+        EXPECT_EQ(problem.from({start, HERE}).solve(), Status::EXACT_SOLUTION);
+        PlanningProblem own(
+            Space::ReedsShepp, scene.bounds, [](const Pose &pose) { return pose.y < -4.0; }, "escape=1");
+        EXPECT_EQ(own.from({start}).to({NEAR}).solve(), Status::INVALID_START);
+    }
+
     TEST(PlannerGoals, AGoalStateIsReachedExactlyWhateverItsThreshold)
     {
         PlanningProblem problem(Space::ReedsShepp, SLOT_SCENE);

@@ -416,3 +416,31 @@ def test_parameters_are_those_of_the_table():
 def test_signals_of_the_past_do_not_disturb():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     assert ia.plan(behind_the_wall())
+
+
+def test_a_start_at_a_goal_stays():
+    for off, pieces in ((5e-6, False), (2e-5, True)):
+        result = ia.plan(ia.Scenario.from_polygons(WALL, (-10, -5, 0), (-10, -5 + off, 0)))
+        assert result.status == 'exact' and (result.length > 0.01) is pieces
+    assert ia.plan(ia.Scenario.from_polygons(WALL, (-10, -5, 0), (-10, -5 + 5e-6, 0)), goal_tolerance=0).length > 0.01
+
+
+def test_a_start_in_contact_is_led_out_only_if_required():
+    touching = ia.Scenario.from_polygons(WALL, (-4.24, -5, 0), (10, -5, 0))
+    assert ia.plan(touching).status == 'invalid_start'
+    result = ia.plan(touching, escape=True, final_straight=2.0)
+    assert result.status == 'escaped' and not result and result.escape['length'] < 0
+    assert abs(result.escape['depth'] - 0.02) < 1e-5 and 'contact' in result.notice
+    same = pickle.loads(pickle.dumps(result))
+    assert (same.status, same.escape, same.notice) == (result.status, result.escape, result.notice)
+    assert ia.plan(touching, escape=True, max_escape_depth=0.01).status == 'invalid_start'
+    free = ia.plan(behind_the_wall(), escape=True)
+    assert free.status == 'exact' and free.escape is None and free.notice == ''
+
+
+def test_the_last_metres_are_straight_on_request():
+    result = ia.plan(behind_the_wall(), final_straight=3.0)
+    assert result and (abs(result.path[-29:, 2]) < 1e-9).all()
+    for name, value in (('final_straight', -1.0), ('max_escape_depth', -0.1), ('initial_straight', math.nan)):
+        with pytest.raises(ia.Error, match=name):
+            ia.plan(behind_the_wall(), **{name: value})

@@ -2,6 +2,7 @@
 
 #include "state_validity/FootprintCells.h"
 #include "state_validity/sweeps/ClearanceProof.h"
+#include "state_validity/sweeps/EscapeFinder.h"
 #include "state_validity/sweeps/SweptBox.h"
 
 #include <algorithm>
@@ -121,6 +122,19 @@ namespace parking
         {
             return cells.blocked(x, y);
         };
+    }
+
+    std::vector<Escape> FootprintEnvironment::escapes(const Pose &pose, double maxDepth, double turningRadius,
+                                                      bool forwardOnly)
+    {
+        std::vector<Escape> escapes = EscapeFinder(checker_).find(pose, maxDepth, turningRadius, forwardOnly);
+        const auto leaves = [&](const Escape &escape)
+        {
+            const auto &[curvature, length] = escape.arc;
+            return boundsMatter_ && lengthInside(pose, curvature, length) < std::abs(length);
+        };
+        escapes.erase(std::remove_if(escapes.begin(), escapes.end(), leaves), escapes.end());
+        return escapes;
     }
 
     bool FootprintEnvironment::acceptPath(const Path &path)

@@ -4,6 +4,8 @@
 #include "parking_geometry/Box.h"
 #include "state_validity/FootprintChecker.h"
 
+#include <vector>
+
 namespace parking
 {
     /** \brief Motion environment on top of a FootprintChecker: motions are swept exactly.
@@ -30,6 +32,8 @@ namespace parking
         bool isMotionFree(const Pose &from, const Pose &to) override;
         double roomAt(double x, double y) override;
         search::BlockedHeadings blockedHeadings(double side, int headings) override;
+        /** \brief The escapes that stay within the bounds. */
+        std::vector<Escape> escapes(const Pose &pose, double maxDepth, double turningRadius, bool forwardOnly) override;
         bool acceptPath(const Path &path) override;
         Box bounds() const override
         {

@@ -177,7 +177,19 @@ namespace parking
              "if the goal cannot be reached, return a path that ends as near to it as possible"},
             {"anytime", &P::anytime, YES_OR_NO, "", "improve the solution until terminated"},
             {"max_memory_mb", &P::maxMemoryMb, between(16.0, 1048576.0, 1.0), "MB",
-             "memory limit of the search; above it planning ends as at a time limit, with this reason"}};
+             "memory limit of the search; above it planning ends as at a time limit, with this reason"},
+            {"goal_tolerance", &P::goalTolerance, between(0.0, 0.01, 1e-5), "m and rad",
+             "a start that deviates from a goal by at most this counts as at the goal: the path has no motion"},
+            {"initial_straight", &P::initialStraight, zeroOrBetween(0.01, 100.0, 0.1), "m",
+             "length of a straight at the beginning of the path, in either direction, as far as it is free (car "
+             "model)"},
+            {"final_straight", &P::finalStraight, zeroOrBetween(0.01, 100.0, 0.1), "m",
+             "length of a straight at the end of the path, in either direction, as far as it is free (car model)"},
+            {"escape", &P::escape, YES_OR_NO, "",
+             "if no start is free, leave a shallow contact by a motion that does not deepen it (car model, with "
+             "`FclFootprintChecker`)"},
+            {"max_escape_depth", &P::maxEscapeDepth, between(0.0, 0.5, 0.01), "m",
+             "largest depth of a contact that `escape` leaves"}};
         return table;
     }
 

@@ -43,6 +43,11 @@ namespace parking
         bool approximate{true};               ///< approximate: end near an unreachable goal
         bool anytime{false};                  ///< anytime: improve until terminated
         unsigned int maxMemoryMb{512};        ///< max_memory_mb: MB of the search
+        double goalTolerance{1e-5};           ///< goal_tolerance: metres and radians
+        double initialStraight{0.0};          ///< initial_straight: metres; 0: none
+        double finalStraight{0.0};            ///< final_straight: metres; 0: none
+        bool escape{false};                   ///< escape: leave a shallow contact at the start
+        double maxEscapeDepth{0.05};          ///< max_escape_depth: metres
 
         /** \brief The four weights in the form of the search. */
         search::HeuristicWeights weights() const

@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
 #include "ompl_improved_astar/search/Tuning.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ namespace parking::search
         constexpr std::size_t CURVES_TO_SHORTEN = 2;   // tried between two poses of a first path
         constexpr double KNOT_SHIFT = 0.3;             // of the knots in a second pass, in spacings
         constexpr std::uint64_t PASSES_PER_ROUND = 9;  // of anytime, one of which turns the car
+        constexpr std::size_t MAX_ESCAPES = 6;         // from a start, roots of the search
         constexpr std::uint64_t MIN_PASSES = 450;      // that find nothing, before planning ends while there is time
 
         /** The multiples of these, without their whole parts, fill the unit cube evenly (after M. Roberts, "The
@@ -36,10 +38,44 @@ namespace parking::search
             improver_.emplace(environment, *curves, search_.cost(), car.centreOffset);
         approach_.reset();
         starts_.clear();
-        hasGoal_ = isGoodEnough_ = false;
+        goals_.clear();
+        isGoodEnough_ = false;
         best_ = {};
         best_.cost = HUGE_VAL;
+        whole_ = best_;
+        first_ = last_ = {};
         passes_ = 0;
+    }
+
+    void PathPlanner::addStart(const Pose &pose)
+    {
+        const double straight = improver_ ? parameters_.initialStraight : 0.0;
+        for (const Pose &root :
+             starts_.add(pose, straight, parameters_.preferredClearance, false, car_.forwardOnly, *environment_))
+            search_.addStart(root);
+    }
+
+    void PathPlanner::addGoal(const Pose &pose)
+    {
+        const double straight = improver_ ? parameters_.finalStraight : 0.0;
+        for (const Pose &root :
+             goals_.add(pose, straight, parameters_.preferredClearance, true, car_.forwardOnly, *environment_))
+            search_.addGoal(root);
+    }
+
+    bool PathPlanner::addEscapes(const Pose &pose)
+    {
+        if (!parameters_.escape || !improver_ || !isFinite(pose))
+            return false;
+        std::size_t count = 0;
+        for (const Escape &escape :
+             environment_->escapes(pose, parameters_.maxEscapeDepth, car_.turningRadius, car_.forwardOnly))
+            if (environment_->isFree(escape.end()) && ++count <= MAX_ESCAPES)
+            {
+                starts_.add(escape);
+                search_.addStart(escape.end());
+            }
+        return count > 0;
     }
 
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
@@ -48,6 +84,8 @@ namespace parking::search
         improved_ = improved;
         isGoodEnough_ = false;
         Outcome outcome = Outcome::Solved;
+        if (takeStay())
+            return outcome;
         if (!hasSolution())
         {
             const SearchOutcome found = search_.run(stop);
@@ -151,13 +189,64 @@ namespace parking::search
         return result;
     }
 
+    bool PathPlanner::isAtGoal(const Pose &start) const
+    {
+        return std::any_of(goals_.motions().begin(), goals_.motions().end(),
+                           [&](const EndMotion &goal)
+                           { return isSamePose(start, goal.pose, parameters_.goalTolerance); });
+    }
+
+    /** Takes the path without motion of a start at a goal. */
+    bool PathPlanner::takeStay()
+    {
+        for (const EndMotion &start : starts_.motions())
+            if (!start.escape && isAtGoal(start.pose))
+            {
+                if (best_.cost > 0.0)
+                {
+                    best_ = whole_ = {{start.pose, {}}, {}, 0.0};
+                    first_ = last_ = {};
+                    if (improved_)
+                        improved_(whole_.path, whole_.cost);
+                }
+                return true;
+            }
+        return false;
+    }
+
+    /** A path of the search with the motions at its ends. */
+    PricedPath PathPlanner::withEnds(const PricedPath &path) const
+    {
+        const EndMotion *first = starts_.at(path.path.start), *last = goals_.at(path.path.end());
+        const bool hasFirst = first != nullptr && first->arc.length != 0.0;
+        const bool hasLast = last != nullptr && last->arc.length != 0.0;
+        if (!hasFirst && !hasLast)
+            return path;
+        Path whole = path.path;
+        if (hasFirst)
+        {
+            whole = {first->pose, {first->arc}};
+            whole.extend(path.path);
+        }
+        if (hasLast)
+            whole.append(last->arc);
+        return priced(whole, path.cost + (hasFirst ? std::abs(first->arc.length) : 0.0) +
+                                 (hasLast ? std::abs(last->arc.length) : 0.0));
+    }
+
     bool PathPlanner::take(const PricedPath &path)
     {
         if (!(path.cost < best_.cost) || (hasSolution() && !isCheaperFinelySampled(path.path)))
             return false;
+        PricedPath whole = withEnds(path);
+        if (!(whole.cost < whole_.cost))
+            return false;
         best_ = path;
+        whole_ = std::move(whole);
+        first_ = *starts_.at(path.path.start);
+        last_ = *goals_.at(path.path.end());
         search_.setCostBound(best_.cost);
-        isGoodEnough_ = (improved_ && improved_(best_.path, best_.cost)) || isGoodEnough_;
+        isGoodEnough_ = (improved_ && improved_(whole_.path, whole_.cost)) || isGoodEnough_;
         return true;
     }
 
@@ -258,6 +347,21 @@ namespace parking::search
 
     bool PathPlanner::approximate(const Pose &target, const StopFunction &stop, Path &path)
     {
+        if (!approach(target, stop, path))
+            return false;
+        first_ = *starts_.at(path.start);
+        last_ = {};
+        if (first_.arc.length != 0.0)
+        {
+            Path whole{first_.pose, {first_.arc}};
+            whole.extend(path);
+            path = std::move(whole);
+        }
+        return true;
+    }
+
+    bool PathPlanner::approach(const Pose &target, const StopFunction &stop, Path &path)
+    {
         const auto search = [&](Search &towards)
         {
             towards.setTarget(target);
@@ -265,10 +369,12 @@ namespace parking::search
             {
             }
         };
-        if (!hasGoal_)
+        const bool hasGoal = !goals_.motions().empty();
+        if (!hasGoal)
             search(search_);
-        const bool isStuck = starts_.empty() || search_.isFull() || (stop && stop()) || search_.hasSeenAllFromStart();
-        if (!hasGoal_ || isStuck)
+        const bool isStuck =
+            starts_.motions().empty() || search_.isFull() || (stop && stop()) || search_.hasSeenAllFromStart();
+        if (!hasGoal || isStuck)
             return search_.nearestPath(target, path);
         // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it.
         if (!approach_)
@@ -276,8 +382,8 @@ namespace parking::search
         approach_->begin(*environment_, parameters_, car_);
         const std::size_t memory = std::size_t{parameters_.maxMemoryMb} << 20;
         approach_->setMaxMemory(memory - std::min(memory, search_.memory()));
-        for (const Pose &start : starts_)
-            approach_->addStart(start);
+        for (const EndMotion &start : starts_.motions())
+            approach_->addStart(start.root);
         search(*approach_);
         Path other;
         if (!approach_->nearestPath(target, path) || !search_.nearestPath(target, other))
@@ -289,8 +395,40 @@ namespace parking::search
 
     double PathPlanner::suboptimalityBound(double cost)
     {
-        const double bound = hasSolution() ? search_.lowerBound() : 0.0;
+        if (hasSolution() && cost == 0.0)
+            return 1.0;
+        const double bound = hasSolution() ? search_.lowerBound() + starts_.minLength() + goals_.minLength() : 0.0;
         return bound > 0.0 ? std::max(1.0, cost / bound) : HUGE_VAL;
+    }
+
+    std::string PathPlanner::notice() const
+    {
+        std::string text;
+        if (first_.escape)
+        {
+            const double length = first_.arc.length;
+            text = "the start is in contact with obstacles, " + formatNumber(100.0 * first_.escape->depth, 1) +
+                   " cm deep; the path leaves it by an escape of " + formatNumber(std::abs(length), 2) + " m " +
+                   (length > 0.0 ? "forwards" : "in reverse");
+        }
+        const auto compare = [&](const char *name, double required, const EndMotion &motion)
+        {
+            const double length = std::abs(motion.arc.length);
+            if (required > length)
+                text +=
+                    (text.empty() ? "" : "; ") + std::string(name) + ": " +
+                    (improver_ ? "only " + formatNumber(length, 2) + " of " + formatNumber(required, 2) + " m are free"
+                               : "kept by motion models of curves only, such as car");
+        };
+        if (!hasSolution() && parameters_.initialStraight + parameters_.finalStraight > 0.0)
+            text += (text.empty() ? "" : "; ") +
+                    std::string("initial_straight or final_straight may leave no room for a path: try shorter ones");
+        if (whole_.path.pieces.empty())
+            return text;
+        if (!first_.escape)
+            compare("initial_straight", parameters_.initialStraight, first_);
+        compare("final_straight", parameters_.finalStraight, last_);
+        return text;
     }
 
     SearchStatistics PathPlanner::statistics() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/planning/PathEnds.h"
 #include "ompl_improved_astar/search/planning/PathImprover.h"
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace parking::search
@@ -34,18 +36,15 @@ namespace parking::search
         void begin(MotionEnvironment &environment, const PlannerParameters &parameters, const CarInSpace &car);
 
         /** \brief Adds a start, which must be free, also between calls of solve(). */
-        void addStart(const Pose &pose)
-        {
-            starts_.push_back(pose);
-            search_.addStart(pose);
-        }
+        void addStart(const Pose &pose);
 
-        /** \brief The same for a goal. */
-        void addGoal(const Pose &pose)
-        {
-            hasGoal_ = true;
-            search_.addGoal(pose);
-        }
+        /** \brief Adds a start in contact by its escapes, if the parameter escape is on.
+
+            \return whether there is one */
+        bool addEscapes(const Pose &pose);
+
+        /** \brief The same as addStart() for a goal. */
+        void addGoal(const Pose &pose);
 
         /** \brief Plans; call it again to resume after Stopped or after adding roots. */
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
@@ -65,22 +64,32 @@ namespace parking::search
             return best_.cost < std::numeric_limits<double>::infinity();
         }
 
-        /** \brief The cheapest path; without pieces if there is none. */
+        /** \brief The cheapest path; without pieces if there is none or the start is at a goal. */
         const Path &bestPath() const
         {
-            return best_.path;
+            return whole_.path;
         }
+
+        /** \brief The escape with which the path of solve() or approximate() begins, if any. */
+        const std::optional<Escape> &escape() const
+        {
+            return first_.escape;
+        }
+
+        /** \brief One line on an escape, and on straights that are shorter than the parameters require or may prevent a
+            solution; empty otherwise. */
+        std::string notice() const;
 
         /** \brief Cost of bestPath() in metres and penalties (see CostModel); infinite without a path. */
         double bestCost() const
         {
-            return best_.cost;
+            return whole_.cost;
         }
 
         /** \brief Part of bestCost() for closeness to obstacles. */
         double proximityOfBest() const
         {
-            return best_.totalProximity();
+            return whole_.totalProximity();
         }
 
         /** \brief \e cost of a path over Search::lowerBound(), at least 1; infinite without a solution. */
@@ -107,8 +116,12 @@ namespace parking::search
             return stop_ && stop_();
         }
         void endCall();
+        bool isAtGoal(const Pose &start) const;
+        bool takeStay();
+        PricedPath withEnds(const PricedPath &path) const;
         void planFirst();
         Outcome planAnytime();
+        bool approach(const Pose &target, const StopFunction &stop, Path &path);
         PricedPath priced(const Path &path, double cost) const;
         bool take(const PricedPath &path);
         bool isCheaperFinelySampled(const Path &path) const;
@@ -123,9 +136,10 @@ namespace parking::search
         Search search_;
         std::unique_ptr<Search> approach_;  // for the place nearest to a goal that cannot be reached
         std::optional<PathImprover> improver_;
-        std::vector<Pose> starts_;
-        bool hasGoal_{false};
-        PricedPath best_;
+        PathEnds starts_, goals_;
+        PricedPath best_;         // of the search
+        PricedPath whole_;        // the same with the motions at its ends
+        EndMotion first_, last_;  // these motions
         StopFunction stop_;
         ImprovementFunction improved_;
         bool isGoodEnough_{false};

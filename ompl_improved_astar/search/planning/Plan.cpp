@@ -68,6 +68,14 @@ namespace parking::search
         return {};
     }
 
+    std::string invalidStart(const PlannerParameters &parameters)
+    {
+        if (!parameters.escape)
+            return "no start is free of obstacles";
+        return "no start is free of obstacles, and no escape leads out of a contact of at most " +
+               formatNumber(parameters.maxEscapeDepth) + " m (max_escape_depth)";
+    }
+
     std::string outOfMemory(const PlannerParameters &parameters)
     {
         return "the search has used up its " + std::to_string(parameters.maxMemoryMb) + " MB of memory (max_memory_mb)";
@@ -87,10 +95,14 @@ namespace parking::search
             planner.addStart(start);
         for (const Pose &goal : goals)
             planner.addGoal(goal);
-        if (starts.empty())
+        bool hasStart = !starts.empty();
+        if (!hasStart)
+            for (const Pose &start : request.starts)
+                hasStart = planner.addEscapes(start) || hasStart;
+        if (!hasStart)
         {
             result.outcome = PlanOutcome::InvalidStart;
-            result.reason = "no start is free of obstacles";
+            result.reason = invalidStart(request.parameters);
             return result;
         }
         const StopFunction stop = [&]
@@ -114,7 +126,7 @@ namespace parking::search
             result.reason = outOfMemory(request.parameters);
         if (planner.hasSolution())
         {
-            result.outcome = PlanOutcome::Solved;
+            result.outcome = planner.escape() ? PlanOutcome::Escaped : PlanOutcome::Solved;
             result.reason.clear();
             result.path = planner.bestPath();
             result.cost = planner.bestCost();
@@ -123,6 +135,8 @@ namespace parking::search
         }
         else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
+        result.notice = planner.notice();
+        result.escape = planner.escape();
         result.statistics = planner.statistics();
         result.loadingTime = planner.search().statistics().loadingTime;
         return result;

@@ -6,9 +6,11 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
+#include "state_validity/sweeps/Escape.h"
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@ namespace parking::search
     /** \brief A planning problem. */
     struct PlanRequest
     {
-        std::vector<Pose> starts;  ///< one or more; colliding ones are ignored
+        std::vector<Pose> starts;  ///< one or more; colliding ones are ignored unless all do and escape is on
         std::vector<Pose>
             goals;       ///< one or more, of which the cheapest to reach is reached; colliding ones are ignored
         CarInSpace car;  ///< car and space
@@ -36,7 +38,8 @@ namespace parking::search
         Infeasible,    ///< no path exists for the motion model
         Timeout,       ///< stopped without a path
         InvalidStart,  ///< no start is free
-        InvalidGoal    ///< no goal is free, and `approximate` is off
+        InvalidGoal,   ///< no goal is free, and `approximate` is off
+        Escaped        ///< to a goal, but the path begins in contact and leaves it by an escape
     };
 
     /** \brief Result of a request. */
@@ -45,9 +48,12 @@ namespace parking::search
         PlanOutcome outcome{PlanOutcome::Timeout};  ///< kind of result
         /** Why there is no solution; empty with a solution, or if only the time ran out. */
         std::string reason;
-        Path path;            ///< of Solved and Approximate
-        std::size_t goal{0};  ///< index into PlanRequest::goals: the goal that is reached or approached
-        double cost{std::numeric_limits<double>::infinity()};  ///< metres and penalties, of Solved
+        Path path;  ///< of Solved, Escaped and Approximate
+        /** One line on an escape, or on straights shorter than the parameters require; empty otherwise. */
+        std::string notice;
+        std::optional<Escape> escape;  ///< with which the path begins, of Escaped and Approximate
+        std::size_t goal{0};           ///< index into PlanRequest::goals: the goal that is reached or approached
+        double cost{std::numeric_limits<double>::infinity()};  ///< metres and penalties, of Solved and Escaped
         /** Cost over Search::lowerBound(), at least 1; infinite if unknown. */
         double suboptimalityBound{std::numeric_limits<double>::infinity()};
         SearchStatistics statistics;  ///< work done
@@ -62,6 +68,9 @@ namespace parking::search
 
     /** \brief Sentence that explains why a search ended without a solution. */
     std::string reasonOf(Exhaustion exhaustion, const CarInSpace &car);
+
+    /** \brief Sentence that explains why there is no start to plan from. */
+    std::string invalidStart(const PlannerParameters &parameters);
 
     /** \brief Sentence that explains why a search that isFull() ended. */
     std::string outOfMemory(const PlannerParameters &parameters);

@@ -2,12 +2,14 @@
 
 #include "benchmarks/plan/PlanReport.h"
 #include "benchmarks/plan/PlanRun.h"
+#include "benchmarks/planners/PlannerRegistry.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,6 +56,49 @@ namespace
         result.planner = entry.name;
         result.runs.push_back(planOnce(problem, entry, {}, 1.0, 1));
         return result;
+    }
+
+    PlanReport plannedByImproved(const Problem &problem, const PlannerSettings &settings)
+    {
+        PlanReport result;
+        result.planner = "improved_astar";
+        result.runs.push_back(planOnce(problem, PlannerRegistry::builtIn().find(result.planner), settings, 60.0, 1));
+        return result;
+    }
+
+    TEST(RefereedRun, AStartAtAGoalNeedsNoMotion)
+    {
+        Scenario scenario = parking_test::openGround(20.0);
+        scenario.goals = {compose(scenario.start, {0.0, 5e-6, 0.0})};
+        const PlanReport stays = plannedByImproved(Problem(scenario, {}), {});
+        EXPECT_TRUE(stays.first().isSolved());
+        EXPECT_EQ(stays.first().path->length, 0.0);
+        EXPECT_EQ(stays.first().path->cusps, 0u);
+        EXPECT_EQ(stays.first().goalDistance, 0.0);
+        scenario.goals = {compose(scenario.start, {0.0, 2e-5, 0.0})};
+        const PlanReport moves = plannedByImproved(Problem(scenario, {}), {});
+        EXPECT_TRUE(moves.first().isSolved());
+        EXPECT_GT(moves.first().path->length, 0.01);
+    }
+
+    TEST(RefereedRun, AnEscapeIsNamedAndTheRestIsChecked)
+    {
+        Scenario scenario = parking_test::openGround(20.0);
+        const double front = scenario.vehicle.wheelbase + scenario.vehicle.frontOverhang - 0.02;
+        scenario.polygons = {parking_test::box(scenario.start.x + front, scenario.start.y - 3.0,
+                                               scenario.start.x + front + 1.0, scenario.start.y + 3.0)};
+        ASSERT_EQ(scenario.start.yaw, 0.0);
+        const Problem problem(scenario, {});
+        EXPECT_EQ(plannedByImproved(problem, {}).first().status, PlanStatus::InvalidStart);
+        const PlanReport result = plannedByImproved(problem, {{"escape", "true"}});
+        const PlanRun &run = result.first();
+        EXPECT_FALSE(run.isSolved());
+        EXPECT_TRUE(run.escapes);
+        ASSERT_TRUE(run.hasValidPath()) << run.reason;
+        EXPECT_NE(resultSummary(problem, result).find(": escaped ("), std::string::npos)
+            << resultSummary(problem, result);
+        EXPECT_NE(run.notice.find("2.0 cm deep"), std::string::npos) << run.notice;
+        EXPECT_EQ(exitStatus(run, true), 3);
     }
 
     TEST(RefereedRun, LiesAreNoSolutions)

@@ -307,6 +307,26 @@ TEST_F(YamlReader, ReadsASlot)
     expectYamlError(with(text, "width: 2.5", "width: 1001"), {"example.yaml:6", "width is 1001", "up to 1000"});
 }
 
+TEST_F(YamlReader, ReadsAGoalWithTolerances)
+{
+    const std::string goal = "goal: {pose: [15.5, 20, -0.25], tolerance: 0.2, yaw_tolerance: 0.1, heading: both}";
+    const Scenario scenario = read(with(SCENARIO, "goal: [15.5, 20, -0.25]", goal));
+    ASSERT_EQ(scenario.goals.size(), 42u);
+    EXPECT_TRUE(isSamePose(scenario.goals[0], {5.5, 0.0, -0.25}, 1e-12));
+    EXPECT_NEAR(positionDistance(scenario.goals.back(), scenario.goals[0]), 0.2, 1e-12);
+    EXPECT_EQ(read(with(SCENARIO, "[15.5, 20, -0.25]", "{pose: [15.5, 20, 0]}")).goals.size(), 1u);
+    EXPECT_EQ(read(with(SCENARIO, "[15.5, 20, -0.25]", "{pose: [15.5, 20, 0], heading: any}")).goals.size(), 16u);
+    const auto refused = [this](const std::string &value, const std::string &part)
+    {
+        expectYamlError(with(SCENARIO, "[15.5, 20, -0.25]", value), {"example.yaml:5", part});
+    };
+    refused("{pose: [15.5, 20, 0], tolerance: -1}", "tolerance is -1");
+    refused("{pose: [15.5, 20, 0], yaw_tolerance: 4}", "yaw_tolerance is 4");
+    refused("{pose: [15.5, 20, 0], heading: all}", "'all'");
+    refused("{pose: [15.5, 20, 0], tolerence: 1}", "did you mean 'tolerance'");
+    expectYamlError(with(SCENARIO, "[15.5, 20, -0.25]", "{tolerance: 1}"), {"'pose' is missing"});
+}
+
 TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
 {
     expectYamlError(SCENARIO + "stat: 1\n", {"example.yaml:11", "'stat'", "did you mean 'start'"});
