@@ -19,19 +19,24 @@ namespace parking
         blocks of eight with a bounding box, so a query skips most blocks. Smaller squares, the buckets, list all blocks
         within \e reach of any of their points, so a query requires only one list.
 
-        The index computes blocks and lists lazily. Their cost grows with the searched area, not with the map. Const
-        calls from several threads are safe. */
+        The index computes blocks and lists lazily. Their cost grows with the searched area, not with the map. In a grid
+        world it reads the outlines of cells only then, so changed cells just require that the blocks around them are
+        dropped. Const calls from several threads are safe. */
     class EdgeIndex
     {
     public:
-        /** \brief An index of \e edges.
+        /** \brief An index of the edges of \e obstacles, which must outlive it.
 
-            \param bounds area of the world
             \param reach largest distance in metres from the query point to a relevant edge, positive */
-        EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
+        EdgeIndex(const ObstacleSet &obstacles, double reach);
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;
+
+        /** \brief Takes over changed cells of a grid world. No other thread may use the index at the same time.
+
+            \param changed the result of ObstacleSet::update() */
+        void update(const std::vector<std::size_t> &changed);
 
         /** \brief Largest distance in metres from the query point to a relevant edge. */
         double reach() const
