@@ -108,7 +108,7 @@ namespace
 TEST(SimulatedSensor, SeenCellsAreOccupiedWhereAnObstacleTouchesThem)
 {
     int occupied = 0, phantoms = 0;
-    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
         Place place = randomPlace(seed);
         place.sensor.rangeNoise = seed % 2 == 0 ? 0.0 : 0.1;
@@ -133,7 +133,7 @@ TEST(SimulatedSensor, SeenCellsAreOccupiedWhereAnObstacleTouchesThem)
                     phantoms += !isTouched(place.scenario.polygons, map, column, row, 1e-8);
             }
     }
-    EXPECT_GT(occupied, 500);
+    EXPECT_GT(occupied, 1000);
     EXPECT_GT(phantoms, 50);
 }
 
@@ -141,7 +141,7 @@ TEST(SimulatedSensor, SeenCellsAreOccupiedWhereAnObstacleTouchesThem)
 TEST(SimulatedSensor, SeesWhatIsInLineOfSight)
 {
     int known = 0, whole = 0;
-    for (std::uint64_t seed = 0; seed < 15; ++seed)
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         const Place place = randomPlace(seed);
         PerceivedWorld world = perceivedBy(place);
@@ -178,8 +178,8 @@ TEST(SimulatedSensor, SeesWhatIsInLineOfSight)
                 whole += all;
             }
     }
-    EXPECT_GT(known, 5000);
-    EXPECT_GT(whole, 3000);
+    EXPECT_GT(known, 20000);
+    EXPECT_GT(whole, 10000);
 }
 
 /** Walls along the borders of cells do not fill the cells beside them, thin ones do not vanish. */
