@@ -18,6 +18,21 @@ namespace parking
         Unknown = 2    ///< not observed; an option of the user decides whether it is an obstacle
     };
 
+    /** \brief New occupancy of one cell. */
+    struct CellChange
+    {
+        std::uint32_t column;  ///< index of the cell along x
+        std::uint32_t row;     ///< index of the cell along y
+        Cell cell;             ///< its new occupancy
+    };
+
+    /** \brief Changes of single cells of a map, in order. If a cell occurs several times, the last change counts. */
+    using GridUpdate = std::vector<CellChange>;
+
+    /** \brief Throws parking::Error unless all cells of \e update lie in a map of this size and have a valid
+        occupancy. */
+    void checkUpdate(const GridUpdate &update, std::size_t width, std::size_t height);
+
     /** \brief A map of square cells.
 
         The frame \e origin is the pose of the lower left corner of the map, including its yaw. In this frame cell (i,
@@ -76,6 +91,10 @@ namespace parking
         {
             cells_[row * width_ + column] = cell;
         }
+
+        /** \brief Sets the cells of \e update. Throws parking::Error, and changes nothing, if a cell lies outside of
+           the map. */
+        void apply(const GridUpdate &update);
 
         /** \brief Cells row by row, lowest row first. */
         const std::vector<Cell> &cells() const

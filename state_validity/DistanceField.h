@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,16 +34,38 @@ namespace parking
         The field marks cells that lie entirely inside of an obstacle, so it proves that a point deep inside of a large
         obstacle is blocked. The outside of the bounds is an obstacle; points there have distance zero.
 
-        An object is immutable after construction. Const calls from several threads are safe. */
+        The field of a grid world may have a limited reach. Cells that are farther from all obstacles store the reach.
+        There the upper bound is that of the distance to the outside of the map. A changed cell affects the cells within
+        reach only, which update() computes again.
+
+        Const calls from several threads are safe. */
     class DistanceField
     {
     public:
+        /** \brief Largest reach in cells; a longer one is reduced to it. */
+        static constexpr int MAX_REACH = 127;
+
         /** \brief Computes the field of \e obstacles.
 
             \param resolution side of a cell in metres for polygon worlds; 0 selects it automatically. Grid worlds use
             their own cells.
-            Throws parking::Error if the resolution is negative, not finite or would require more than 2^28 cells. */
-        explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
+            \param reach metres up to which distances are exact in a grid world, above zero; ignored in polygon worlds
+            Throws parking::Error for a reach that is not positive, and if the resolution is negative, not finite or
+            would require more than 2^28 cells. */
+        explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0,
+                               double reach = std::numeric_limits<double>::infinity());
+
+        /** \brief Takes over changed cells of a grid world. The result equals a field made from the changed obstacles.
+
+            \param obstacles those of the constructor, after their update
+            \param changed the result of ObstacleSet::update() */
+        void update(const ObstacleSet &obstacles, const std::vector<std::size_t> &changed);
+
+        /** \brief Metres up to which distances are exact; infinite without a limit. */
+        double reach() const
+        {
+            return reach_;
+        }
 
         /** \brief Side of a cell in metres. */
         double resolution() const
@@ -75,7 +98,7 @@ namespace parking
         double closeUpperBound(double x, double y) const
         {
             const double value = valueAt(x, y);
-            if (value < 0.0 || !isGrid_)
+            if (value < 0.0 || value >= reach_ || !isGrid_)
                 return upperBoundOf(value);
             const double u = (x - origin_.x()) * inverse_, v = (y - origin_.y()) * inverse_;
             // Neither is negative, and a conversion is faster than std::floor.
@@ -124,6 +147,8 @@ namespace parking
 
         double upperBoundOf(double value) const
         {
+            if (value >= reach_)
+                return farthest_;
             return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
         }
 
@@ -138,7 +163,12 @@ namespace parking
                            static_cast<std::size_t>(static_cast<std::ptrdiff_t>(u))];
         }
 
+        class Transform;
+
+        void prepare(double resolution, std::size_t columns, std::size_t rows, const Eigen::Vector2d &origin);
+        void limit(double reach);
         void transform(const std::vector<std::uint8_t> &blocked);
+        void transformGrid(const ObstacleSet &obstacles);
 
         std::size_t columns_{0};
         std::size_t rows_{0};
@@ -146,8 +176,14 @@ namespace parking
         double resolution_{1.0};
         double inverse_{1.0};
         double error_{0.0};
-        bool isGrid_{false};  // whether a blocked cell is entirely an obstacle
+        double reach_{std::numeric_limits<double>::infinity()};
+        double farthest_{0.0};  // upper bound of the distance to the outside of the map from any point
+        bool isGrid_{false};    // whether a blocked cell is entirely an obstacle
         Eigen::Vector2d origin_{0.0, 0.0};
         std::vector<float> values_;
+        // With a limited reach only:
+        int reachCells_{0};                  // 0 without a limit
+        std::vector<float> ofSquare_;        // value of a cell by the square of its distance in cells
+        std::vector<std::uint8_t> heights_;  // cells along the column to the nearest blocked one, at most the reach
     };
 }  // namespace parking

@@ -19,8 +19,9 @@ namespace parking
         blocks of eight with a bounding box, so a query skips most blocks. Smaller squares, the buckets, list all blocks
         within \e reach of any of their points, so a query requires only one list.
 
-        The index computes blocks and lists lazily. Their cost grows with the searched area, not with the map. Const
-        calls from several threads are safe. */
+        The index computes blocks and lists lazily. Their cost grows with the searched area, not with the map. In a grid
+        world it reads the outlines of cells only then, so changed cells just require that the blocks around them are
+        dropped. Const calls from several threads are safe. */
     class EdgeIndex
     {
     public:
@@ -29,9 +30,18 @@ namespace parking
             \param bounds area of the world
             \param reach largest distance in metres from the query point to a relevant edge, positive */
         EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
+
+        /** \brief An index of the edges of \e obstacles, which must outlive it. */
+        EdgeIndex(const ObstacleSet &obstacles, double reach);
+
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;
+
+        /** \brief Takes over changed cells of a grid world. No other thread may use the index at the same time.
+
+            \param changed the result of ObstacleSet::update() */
+        void update(const std::vector<std::size_t> &changed);
 
         /** \brief Largest distance in metres from the query point to a relevant edge. */
         double reach() const
@@ -85,15 +95,18 @@ namespace parking
 
         template <class T, class Make>
         static const T &once(std::atomic<T *> &place, const Make &make);
+        static double nearest(const List &list, const OrientedBox &box, double smallest);
         const List &near(double x, double y) const;
+        const Cell &cellAt(std::size_t column, std::size_t row) const;
         std::unique_ptr<List> gather(std::size_t column, std::size_t row) const;
         std::unique_ptr<Cell> cut(std::size_t column, std::size_t row) const;
 
+        const ObstacleSet *grid_{nullptr};  // whose cells are the obstacles, or null
         double reach_;
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;
-        /** Edges by the cells that their bounding boxes overlap, in one array: those of cell k begin at
+        /** Edges of polygons by the cells that their bounding boxes overlap, in one array: those of cell k begin at
             ofCells_[first_[k]]. Contiguous copies avoid cache misses when a cell is cut. */
         std::size_t cellColumns_, cellRows_;
         double cellSize_;

@@ -7,10 +7,12 @@
 #include "state_validity/DistanceField.h"
 #include "state_validity/EdgeIndex.h"
 #include "state_validity/ObstacleSet.h"
+#include "state_validity/world/IndexedObstacles.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -61,6 +63,10 @@ namespace parking
             than the world. */
         FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
                          ContactTestMaker contact = {}, double fieldResolution = 0.0);
+
+        /** \brief A checker that shares \e obstacles with others and uses their cells as they are at each call. */
+        FootprintChecker(std::shared_ptr<const IndexedObstacles> obstacles, const Vehicle &vehicle, double margin = 0.0,
+                         ContactTestMaker contact = {});
 
         /** \brief The car, without the margin. */
         const Vehicle &vehicle() const
@@ -172,17 +178,20 @@ namespace parking
             double radius;
         };
 
-        ObstacleSet obstacles_;
+        std::shared_ptr<const IndexedObstacles> world_;
+        const ObstacleSet &obstacles_;  // of world_, as is field_
+        const DistanceField &field_;
         Vehicle vehicle_;
         double margin_;
         double centreOffset_;  // of the body's centre ahead of the rear axle
         double halfLength_, halfWidth_;
         double circumradius_, inradius_, farthest_;
         std::vector<Circle> covering_, inscribed_;
-        DistanceField field_;
-        EdgeIndex edges_;
+        std::shared_ptr<const EdgeIndex> index_;
+        const EdgeIndex &edges_;  // index_
         ContactTestMaker makeContactTest_;
-        mutable std::once_flag contactOnce_;
+        mutable std::mutex contactMutex_;
         mutable ContactTest contactTest_;
+        mutable std::uint64_t contactVersion_{0};  // of the world, when the contact test was made
     };
 }  // namespace parking

@@ -7,6 +7,9 @@
 #include "parking_geometry/Scenario.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,11 +61,16 @@ namespace parking
             return bounds_;
         }
 
-        /** \brief Edges of all obstacles and of the bounds, in the local frame. */
+        /** \brief Edges of all obstacles and of the bounds, in the local frame. Those of a grid world are computed at
+            the first call after a change. */
         const std::vector<Edge> &edges() const
         {
-            return edges_;
+            return derived().edges;
         }
+
+        /** \brief Edges of a grid world near \e box, including those of the bounds. They cover the part of edges()
+            inside of the box. */
+        std::vector<Edge> edgesNear(const Box &box) const;
 
         /** \brief Solid polygons in the local frame, counter-clockwise; empty for a grid world. */
         const std::vector<Polygon> &polygons() const
@@ -70,10 +78,11 @@ namespace parking
             return polygons_;
         }
 
-        /** \brief Solid rectangles of merged occupied cells in the local frame; empty for a polygon world. */
+        /** \brief Solid rectangles of merged occupied cells in the local frame; empty for a polygon world. They are
+            computed at the first call after a change. */
         const std::vector<Box> &rectangles() const
         {
-            return rectangles_;
+            return derived().rectangles;
         }
 
         /** \brief Side of the cells of a grid world in metres; 0 for a polygon world. */
@@ -100,18 +109,31 @@ namespace parking
             return rows_;
         }
 
+        /** \brief Changes cells of a grid world. Const calls from other threads must not overlap with it.
+
+            \return indices into cells() of the cells whose occupancy has changed, ascending
+            Throws parking::Error, and changes nothing, for a polygon world and for cells outside of the map. */
+        std::vector<std::size_t> update(const GridUpdate &update);
+
         /** \brief Whether the local point is inside of an obstacle or outside of the bounds. The result is undefined
             exactly on an outline. */
         bool covers(double x, double y) const;
 
     private:
-        void addBoundsEdges();
+        /** What follows from the obstacles, shared by copies with equal ones. */
+        struct Derived
+        {
+            std::once_flag once;
+            std::vector<Edge> edges;
+            std::vector<Box> rectangles;
+        };
+        const Derived &derived() const;
 
         Pose frame_;
         Box bounds_{};
-        std::vector<Edge> edges_;
         std::vector<Polygon> polygons_;
-        std::vector<Box> rectangles_;
+        std::shared_ptr<Derived> derived_{std::make_shared<Derived>()};
+        bool unknownIsOccupied_{true};
         double cellSize_{0.0};
         std::vector<std::uint8_t> cells_;
         std::size_t columns_{0};
