@@ -421,7 +421,8 @@ namespace parking
             const double now = record.control.time;
             const bool drives =
                 record.control.mode == TrackingMode::Driving || record.control.mode == TrackingMode::Steering;
-            std::optional<Replan> found;
+            Replan found;
+            found.failure = "the path is driven with stops to steer";
             hasOpened_ = false;
             nextImprovement_ = reaction.time + parameters_.minTimeGain;
             if (leg.trajectory && parameters_.reactionTime > 0.0 && drives)
@@ -444,26 +445,28 @@ namespace parking
                                 [&](const TimedMotion &next) { return isFree(next, driven, world_.footprint()); }});
                 isReacting_ = false;
                 if (late())
-                    found.reset();
-                if (found && blocked.empty() &&
-                    found->motion.duration() > motion.duration() - parameters_.minTimeGain)
+                    found.failure = "planning took too long";
+                if (found.failure.empty() && blocked.empty() &&
+                    found.motion.duration() > motion.duration() - parameters_.minTimeGain)
                     return;
             }
-            if (!found)
+            if (!found.failure.empty())
             {
+                if (!blocked.empty())
+                    note("stopping to plan: " + found.failure);
                 cause_ = blocked;
                 return;
             }
             reaction.kind = blocked.empty() ? ReactionKind::Better
-                            : found->stops  ? ReactionKind::Braked
+                            : found.stops  ? ReactionKind::Braked
                                             : ReactionKind::Moving;
-            note((blocked.empty() ? "the map has changed" : blocked) + ": " + found->plan.message +
-                 (found->stops ? ", after braking" : ", in motion"));
-            goal_ = found->plan.goal;
-            leg.plan = std::move(found->plan);
-            leg.trajectory = std::move(found->trajectory);
-            leg.trajectory->trajectory.motion = found->motion;
-            next_ = std::move(found->motion);
+            note((blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
+                 (found.stops ? ", after braking" : ", in motion"));
+            goal_ = found.plan.goal;
+            leg.plan = std::move(found.plan);
+            leg.trajectory = std::move(found.trajectory);
+            leg.trajectory->trajectory.motion = found.motion;
+            next_ = std::move(found.motion);
             beginWatching(leg, driven);
         }
 

@@ -7,12 +7,14 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace parking
 {
     /** \brief A motion that continues another one. */
     struct Replan
     {
+        std::string failure;            ///< why there is none; empty if there is one
         TimedMotion motion;             ///< equals the driven motion up to the splice
         bool stops{false};              ///< whether the car brakes to rest before it continues on another path
         ParkingPlan plan;               ///< of the part after the splice
@@ -26,7 +28,7 @@ namespace parking
         const Vehicle &car;         ///< as driven
         double now;                 ///< seconds since the start of the motion
         double splice;              ///< seconds since the start of the motion, when the new motion may begin
-        double deceleration;        ///< m/s^2, for braking along the motion
+        double deceleration;        ///< m/s^2, for braking along the motion from the splice
 
         /** Plans a path from a pose to a goal. */
         std::function<ParkingPlan(const Pose &)> plan;
@@ -39,10 +41,11 @@ namespace parking
     /** \brief A free motion from where the car will be at the splice, with its speed and steering angle there.
 
         The first candidate continues in motion: a trajectory along a new path that starts in the direction of travel.
-        The second one brakes to rest along the driven motion, from the splice, or at once if that is too late. It then
+        The second one brakes to rest along the driven motion, from the splice, or at once and with the
+        whole brake if that is too late. It then
         continues along a new path. Position, heading, speed and steering angle are continuous, and the motion up to the
         splice is kept.
 
-        \return nothing if neither candidate exists */
-    std::optional<Replan> replan(const ReplanRequest &request);
+        \return if neither candidate exists, a result with the reason */
+    Replan replan(const ReplanRequest &request);
 }  // namespace parking
