@@ -16,11 +16,25 @@ namespace parking
         constexpr double CLEARANCE_SHARE = 0.01;  // or this share of the clearance
     }                                             // namespace
 
-    ParkingWorld::ParkingWorld(const Scenario &scenario, ContactTestMaker contact)
+    ParkingWorld::ParkingWorld(const Scenario &scenario, ContactTestMaker contact, double fieldReach)
       : contact_(std::move(contact)),
-        footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle, 0.0,
-                                                            contact_))
+        obstacles_(std::make_shared<IndexedObstacles>(ObstacleSet::fromScenario(scenario), 0.0, fieldReach)),
+        footprint_(std::make_shared<const FootprintChecker>(obstacles_, scenario.vehicle, 0.0, contact_))
     {
+    }
+
+    void ParkingWorld::update(const GridUpdate &update)
+    {
+        obstacles_->update(update);
+    }
+
+    ParkingWorld ParkingWorld::snapshot() const
+    {
+        ParkingWorld copy(*this);
+        copy.obstacles_ = obstacles_->copy();
+        copy.footprint_ =
+            std::make_shared<const FootprintChecker>(copy.obstacles_, footprint_->vehicle(), 0.0, contact_);
+        return copy;
     }
 
     std::shared_ptr<const FootprintChecker> ParkingWorld::enlarged(double gap) const
@@ -29,8 +43,7 @@ namespace parking
             return footprint_;
         try
         {
-            return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap,
-                                                            contact_);
+            return std::make_shared<const FootprintChecker>(obstacles_, footprint_->vehicle(), gap, contact_);
         }
         catch (const Error &)
         {

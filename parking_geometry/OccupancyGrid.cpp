@@ -45,6 +45,30 @@ namespace parking
         }
     }
 
+    void checkUpdate(const GridUpdate &update, std::size_t width, std::size_t height)
+    {
+        for (const CellChange &change : update)
+        {
+            const auto fail = [&](const std::string &what)
+            {
+                throw Error("changed cell (" + std::to_string(change.column) + ", " + std::to_string(change.row) +
+                            ") " + what);
+            };
+            if (change.column >= width || change.row >= height)
+                fail("lies outside of the map of " + sizeText(width, height));
+            if (change.cell > Cell::Unknown)
+                fail("has the occupancy " + std::to_string(static_cast<int>(change.cell)) +
+                     "; it must be free, occupied or unknown");
+        }
+    }
+
+    void OccupancyGrid::apply(const GridUpdate &update)
+    {
+        checkUpdate(update, width_, height_);
+        for (const CellChange &change : update)
+            set(change.column, change.row, change.cell);
+    }
+
     std::vector<Eigen::Vector2d> OccupancyGrid::outline() const
     {
         const double right = static_cast<double>(width_) * resolution_;

@@ -29,6 +29,10 @@ namespace parking
     /** \brief Changes of single cells of a map, in order. If a cell occurs several times, the last change counts. */
     using GridUpdate = std::vector<CellChange>;
 
+    /** \brief Throws parking::Error unless all cells of \e update lie in a map of this size and have a valid
+        occupancy. */
+    void checkUpdate(const GridUpdate &update, std::size_t width, std::size_t height);
+
     /** \brief A map of square cells.
 
         The frame \e origin is the pose of the lower left corner of the map, including its yaw. In this frame cell (i,

@@ -30,7 +30,7 @@ namespace parking
       : obstacles_(std::move(obstacles)),
         radius_(checked(radius)),
         field_(obstacles_),
-        edges_(obstacles_.edges(), obstacles_.bounds(), radius + CLEARANCE_REACH)
+        edges_(obstacles_, radius + CLEARANCE_REACH)
     {
     }
 

@@ -34,9 +34,9 @@ namespace parking
         The field marks cells that lie entirely inside of an obstacle, so it proves that a point deep inside of a large
         obstacle is blocked. The outside of the bounds is an obstacle; points there have distance zero.
 
-        The field of a grid world may have a limited reach. Cells that are farther from all obstacles store the reach,
-        so the lower bound is at most the reach, and the upper bound is infinite there. A changed cell then affects the
-        cells within reach only, which update() computes again.
+        The field of a grid world may have a limited reach. Cells that are farther from all obstacles store the reach.
+        There the upper bound is that of the distance to the outside of the map. A changed cell affects the cells within
+        reach only, which update() computes again.
 
         Const calls from several threads are safe. */
     class DistanceField
@@ -148,7 +148,7 @@ namespace parking
         double upperBoundOf(double value) const
         {
             if (value >= reach_)
-                return std::numeric_limits<double>::infinity();
+                return farthest_;
             return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
         }
 
@@ -163,8 +163,12 @@ namespace parking
                            static_cast<std::size_t>(static_cast<std::ptrdiff_t>(u))];
         }
 
+        class Transform;
+
+        void prepare(double resolution, std::size_t columns, std::size_t rows, const Eigen::Vector2d &origin);
+        void limit(double reach);
         void transform(const std::vector<std::uint8_t> &blocked);
-        class Local;
+        void transformGrid(const ObstacleSet &obstacles);
 
         std::size_t columns_{0};
         std::size_t rows_{0};
@@ -173,10 +177,13 @@ namespace parking
         double inverse_{1.0};
         double error_{0.0};
         double reach_{std::numeric_limits<double>::infinity()};
-        bool isGrid_{false};  // whether a blocked cell is entirely an obstacle
+        double farthest_{0.0};  // upper bound of the distance to the outside of the map from any point
+        bool isGrid_{false};    // whether a blocked cell is entirely an obstacle
         Eigen::Vector2d origin_{0.0, 0.0};
         std::vector<float> values_;
-        /** With a limited reach: cells along the column to the nearest blocked one, at most the reach. */
-        std::vector<std::uint8_t> heights_;
+        // With a limited reach only:
+        int reachCells_{0};                  // 0 without a limit
+        std::vector<float> ofSquare_;        // value of a cell by the square of its distance in cells
+        std::vector<std::uint8_t> heights_;  // cells along the column to the nearest blocked one, at most the reach
     };
 }  // namespace parking

@@ -14,6 +14,8 @@ namespace parking
         constexpr std::size_t BLOCK_SIZE = 8;
         // Rounding error of rotated coordinates within a few kilometres of the frame, with a reserve.
         constexpr double ROUNDING = 1e-10;
+        // Cells are larger by this on each side, so that rounding loses no edge along the border; metres.
+        constexpr double HAIR = 1e-9;
         // Avoids a division by zero for an edge that is cut off at its end and has no length.
         constexpr double MIN_SQUARE = 1e-300;
 
@@ -159,6 +161,13 @@ namespace parking
         std::vector<BlockInBox> boxes;  // of the blocks
     };
 
+    EdgeIndex::EdgeIndex(const ObstacleSet &obstacles, double reach)
+      : EdgeIndex(obstacles.cellSize() > 0.0 ? std::vector<Edge>() : obstacles.edges(), obstacles.bounds(), reach)
+    {
+        if (obstacles.cellSize() > 0.0)
+            grid_ = &obstacles;
+    }
+
     EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach)
       : reach_(reach),
         origin_(bounds.min)
@@ -224,8 +233,7 @@ namespace parking
         // The cells at the border also contain the area beyond the world.
         const Eigen::Vector2d corner =
             origin_ + cellSize_ * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
-        // Slightly larger than the cell, so that rounding loses no edge along the border.
-        const Eigen::Vector2d hair(1e-9, 1e-9);
+        const Eigen::Vector2d hair(HAIR, HAIR);
         Box box{corner - hair, corner + Eigen::Vector2d(cellSize_, cellSize_) + hair};
         if (column == 0)
             box.min.x() = -HUGE_VAL;
@@ -237,9 +245,21 @@ namespace parking
             box.max.y() = HUGE_VAL;
 
         // Edges sorted along the curve. The higher half of a key is the place, the lower half the edge.
-        const std::size_t *const first = &first_[row * cellColumns_ + column];
-        const std::size_t count = first[1] - first[0];
-        const Edge *const edges = ofCells_.data() + first[0];
+        std::vector<Edge> ofGrid;
+        const Edge *edges = nullptr;
+        std::size_t count = 0;
+        if (grid_ != nullptr)
+        {
+            ofGrid = grid_->edgesNear(box);
+            edges = ofGrid.data();
+            count = ofGrid.size();
+        }
+        else
+        {
+            const std::size_t *const first = &first_[row * cellColumns_ + column];
+            edges = ofCells_.data() + first[0];
+            count = first[1] - first[0];
+        }
         std::vector<std::uint64_t> order;
         order.reserve(count);
         for (std::size_t k = 0; k < count; ++k)
@@ -286,6 +306,46 @@ namespace parking
         return cell;
     }
 
+    void EdgeIndex::update(const std::vector<std::size_t> &changed)
+    {
+        const double side = grid_->cellSize();
+        std::vector<std::size_t> dropped;
+        for (const std::size_t index : changed)
+        {
+            const double x = side * static_cast<double>(index % grid_->columns()) - origin_.x();
+            const double y = side * static_cast<double>(index / grid_->columns()) - origin_.y();
+            // The outline of the changed cell may lie on the border of a cell of the index.
+            const std::size_t right = clampTo((x + side + 2.0 * HAIR) / cellSize_, cellColumns_),
+                              high = clampTo((y + side + 2.0 * HAIR) / cellSize_, cellRows_);
+            for (std::size_t row = clampTo((y - 2.0 * HAIR) / cellSize_, cellRows_); row <= high; ++row)
+                for (std::size_t column = clampTo((x - 2.0 * HAIR) / cellSize_, cellColumns_); column <= right;
+                     ++column)
+                    if (const std::size_t cell = row * cellColumns_ + column; dropped.empty() || dropped.back() != cell)
+                        dropped.push_back(cell);
+        }
+        std::sort(dropped.begin(), dropped.end());
+        dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
+        for (const std::size_t cell : dropped)
+        {
+            delete cells_[cell].exchange(nullptr, std::memory_order_relaxed);
+            // All lists that may refer to the cell, see gather(). One more bucket on each side covers rounding.
+            const double around = reach_ + 1.5 * bucketSize_;
+            const double x = cellSize_ * static_cast<double>(cell % cellColumns_);
+            const double y = cellSize_ * static_cast<double>(cell / cellColumns_);
+            const std::size_t right = clampTo((x + cellSize_ + around) * inverseBucketSize_, columns_),
+                              high = clampTo((y + cellSize_ + around) * inverseBucketSize_, rows_);
+            for (std::size_t row = clampTo((y - around) * inverseBucketSize_, rows_); row <= high; ++row)
+                for (std::size_t column = clampTo((x - around) * inverseBucketSize_, columns_); column <= right;
+                     ++column)
+                    delete buckets_[row * columns_ + column].exchange(nullptr, std::memory_order_relaxed);
+        }
+    }
+
+    const EdgeIndex::Cell &EdgeIndex::cellAt(std::size_t column, std::size_t row) const
+    {
+        return once(cells_[row * cellColumns_ + column], [this, column, row] { return cut(column, row); });
+    }
+
     std::unique_ptr<EdgeIndex::List> EdgeIndex::gather(std::size_t column, std::size_t row) const
     {
         const double half = 0.5 * bucketSize_, around = reach_ + half;
@@ -299,13 +359,13 @@ namespace parking
         std::size_t boxes = 0;
         for (std::size_t r = low; r <= high; ++r)
             for (std::size_t c = left; c <= right; ++c)
-                boxes += once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }).boxes.size();
+                boxes += cellAt(c, r).boxes.size();
         // The distance test is unpredictable, so a branch would take longer than writing all candidates.
         std::vector<const BlockInBox *> found(boxes + 1);
         std::size_t count = 0;
         for (std::size_t r = low; r <= high; ++r)
             for (std::size_t c = left; c <= right; ++c)
-                for (const BlockInBox &each : cells_[r * cellColumns_ + c].load(std::memory_order_acquire)->boxes)
+                for (const BlockInBox &each : cellAt(c, r).boxes)
                 {
                     found[count] = &each;
                     count += squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest;
@@ -426,10 +486,9 @@ namespace parking
         return std::sqrt(smallest);
     }
 
-    double EdgeIndex::distance(const OrientedBox &box) const
+    double EdgeIndex::nearest(const List &list, const OrientedBox &box, double smallest)
     {
-        double smallest = HUGE_VAL;
-        for (const BlockInBox &each : near(box.x, box.y))
+        for (const BlockInBox &each : list)
         {
             if (each.gap(box) >= smallest)
                 continue;
@@ -444,24 +503,18 @@ namespace parking
         return smallest;
     }
 
+    double EdgeIndex::distance(const OrientedBox &box) const
+    {
+        return nearest(near(box.x, box.y), box, HUGE_VAL);
+    }
+
     double EdgeIndex::distanceToAll(const OrientedBox &box) const
     {
         const double circumradius = std::hypot(box.halfLength, box.halfWidth);
         double smallest = HUGE_VAL;
         const auto look = [&](std::size_t column, std::size_t row)
         {
-            const std::size_t cell = row * cellColumns_ + column;
-            for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k)
-            {
-                const Edge &edge = ofCells_[k];
-                const double square =
-                    squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
-                const double ignored = smallest + circumradius;
-                if (square >= ignored * ignored)
-                    continue;
-                const Eigen::Vector2d along = (edge.to - edge.from).normalized();
-                smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
-            }
+            smallest = nearest(cellAt(column, row).boxes, box, smallest);
         };
         // Rings of cells about the centre, until the next ring is too far away.
         const std::size_t column = clampTo((box.x - origin_.x()) / cellSize_, cellColumns_);

@@ -25,10 +25,15 @@ namespace parking
     class EdgeIndex
     {
     public:
-        /** \brief An index of the edges of \e obstacles, which must outlive it.
+        /** \brief An index of \e edges.
 
+            \param bounds area of the world
             \param reach largest distance in metres from the query point to a relevant edge, positive */
+        EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
+
+        /** \brief An index of the edges of \e obstacles, which must outlive it. */
         EdgeIndex(const ObstacleSet &obstacles, double reach);
+
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;
@@ -90,15 +95,18 @@ namespace parking
 
         template <class T, class Make>
         static const T &once(std::atomic<T *> &place, const Make &make);
+        static double nearest(const List &list, const OrientedBox &box, double smallest);
         const List &near(double x, double y) const;
+        const Cell &cellAt(std::size_t column, std::size_t row) const;
         std::unique_ptr<List> gather(std::size_t column, std::size_t row) const;
         std::unique_ptr<Cell> cut(std::size_t column, std::size_t row) const;
 
+        const ObstacleSet *grid_{nullptr};  // whose cells are the obstacles, or null
         double reach_;
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;
-        /** Edges by the cells that their bounding boxes overlap, in one array: those of cell k begin at
+        /** Edges of polygons by the cells that their bounding boxes overlap, in one array: those of cell k begin at
             ofCells_[first_[k]]. Contiguous copies avoid cache misses when a cell is cut. */
         std::size_t cellColumns_, cellRows_;
         double cellSize_;

@@ -32,6 +32,13 @@ namespace parking
             return std::hypot(0.5 * vehicle.length() + margin, 0.5 * vehicle.width + margin);
         }
 
+        std::shared_ptr<const IndexedObstacles> checked(std::shared_ptr<const IndexedObstacles> obstacles)
+        {
+            if (!obstacles)
+                throw Error("footprint checker: the obstacles are missing");
+            return obstacles;
+        }
+
         double checked(const Vehicle &vehicle, double margin)
         {
             vehicle.validate();
@@ -52,7 +59,16 @@ namespace parking
 
     FootprintChecker::FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin,
                                        ContactTestMaker contact, double fieldResolution)
-      : obstacles_(std::move(obstacles)),
+      : FootprintChecker(std::make_shared<const IndexedObstacles>(std::move(obstacles), fieldResolution), vehicle,
+                         margin, std::move(contact))
+    {
+    }
+
+    FootprintChecker::FootprintChecker(std::shared_ptr<const IndexedObstacles> obstacles, const Vehicle &vehicle,
+                                       double margin, ContactTestMaker contact)
+      : world_(checked(std::move(obstacles))),
+        obstacles_(world_->obstacles()),
+        field_(world_->field()),
         vehicle_(vehicle),
         margin_(checked(vehicle, margin)),
         centreOffset_(vehicle.centreOffset()),
@@ -62,8 +78,8 @@ namespace parking
         inradius_(std::min(halfLength_, halfWidth_) - ROUNDING),
         farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
                              halfWidth_)),
-        field_(obstacles_, fieldResolution),
-        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH),
+        index_(world_->edges(circumradius_ + CLEARANCE_REACH)),
+        edges_(*index_),
         makeContactTest_(std::move(contact))
     {
         const Eigen::Vector2d world = obstacles_.bounds().size();
@@ -110,8 +126,15 @@ namespace parking
             return true;
         if (!makeContactTest_)
             return false;
-        std::call_once(contactOnce_, [this] { contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_); });
-        return contactTest_(box);
+        ContactTest test;
+        {
+            const std::lock_guard<std::mutex> lock(contactMutex_);
+            if (!contactTest_ || contactVersion_ != world_->version())
+                contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_);
+            contactVersion_ = world_->version();
+            test = contactTest_;
+        }
+        return test(box);
     }
 
     /** Lower bound of the distance between the body and the obstacles by the field alone; negative if the field proves

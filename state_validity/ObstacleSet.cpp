@@ -67,16 +67,23 @@ namespace parking
             return rectangles;
         }
 
-        /** Adds the boundaries between occupied and free cells as maximal straight lines. */
+        /** A part of a grid: columns and rows from the first one up to but excluding the last one. */
+        struct Window
+        {
+            std::size_t left, right, low, high;
+        };
+
+        /** Adds the boundaries between occupied and free cells in the window and on its border as straight lines, each
+            as long as possible. */
         void addCellEdges(const std::vector<std::uint8_t> &cells, std::size_t columns, std::size_t rows, double size,
-                          std::vector<Edge> &edges)
+                          const Window &window, std::vector<Edge> &edges)
         {
             const auto at = [&](std::size_t column, std::size_t row)
             {
                 return cells[row * columns + column] != 0;
             };
-            for (std::size_t row = 1; row < rows; ++row)
-                for (std::size_t column = 0; column < columns;)
+            for (std::size_t row = std::max<std::size_t>(1, window.low); row <= std::min(window.high, rows - 1); ++row)
+                for (std::size_t column = window.left; column < window.right;)
                 {
                     if (at(column, row) == at(column, row - 1))
                     {
@@ -84,14 +91,15 @@ namespace parking
                         continue;
                     }
                     const std::size_t begin = column;
-                    while (column < columns && at(column, row) != at(column, row - 1))
+                    while (column < window.right && at(column, row) != at(column, row - 1))
                         ++column;
                     const double y = static_cast<double>(row) * size;
                     edges.push_back({{static_cast<double>(begin) * size, y}, {static_cast<double>(column) * size, y}});
                 }
             // Column-wise runs, visited row by row for the cache: `begins` stores the beginning of each run.
             constexpr std::size_t NONE = static_cast<std::size_t>(-1);
-            std::vector<std::size_t> begins(columns, NONE);
+            const std::size_t first = std::max<std::size_t>(1, window.left), last = std::min(window.right, columns - 1);
+            std::vector<std::size_t> begins(last + 1, NONE);
             const auto close = [&](std::size_t column, std::size_t row)
             {
                 const double x = static_cast<double>(column) * size;
@@ -99,8 +107,8 @@ namespace parking
                     {{x, static_cast<double>(begins[column]) * size}, {x, static_cast<double>(row) * size}});
                 begins[column] = NONE;
             };
-            for (std::size_t row = 0; row < rows; ++row)
-                for (std::size_t column = 1; column < columns; ++column)
+            for (std::size_t row = window.low; row < window.high; ++row)
+                for (std::size_t column = first; column <= last; ++column)
                 {
                     const bool border = at(column, row) != at(column - 1, row);
                     if (border && begins[column] == NONE)
@@ -108,9 +116,21 @@ namespace parking
                     else if (!border && begins[column] != NONE)
                         close(column, row);
                 }
-            for (std::size_t column = 1; column < columns; ++column)
+            for (std::size_t column = first; column <= last; ++column)
                 if (begins[column] != NONE)
-                    close(column, rows);
+                    close(column, window.high);
+        }
+
+        void addBoundsEdges(const Box &bounds, std::vector<Edge> &edges)
+        {
+            const Eigen::Vector2d &a = bounds.min, &c = bounds.max;
+            const Eigen::Vector2d b{c.x(), a.y()}, d{a.x(), c.y()};
+            edges.insert(edges.end(), {{a, b}, {b, c}, {c, d}, {d, a}});
+        }
+
+        bool isObstacle(Cell cell, bool unknownIsOccupied)
+        {
+            return cell == Cell::Occupied || (unknownIsOccupied && cell == Cell::Unknown);
         }
     }  // namespace
 
@@ -144,11 +164,8 @@ namespace parking
                             " crosses itself; it must be a simple polygon");
             if (signedArea(local) < 0.0)
                 std::reverse(local.begin(), local.end());
-            for (std::size_t k = 0; k < local.size(); ++k)
-                set.edges_.push_back({local[k], local[(k + 1) % local.size()]});
             set.polygons_.push_back(std::move(local));
         }
-        set.addBoundsEdges();
         return set;
     }
 
@@ -158,6 +175,7 @@ namespace parking
             throw Error("the occupancy grid has no cells");
         ObstacleSet set;
         set.frame_ = grid.origin();
+        set.unknownIsOccupied_ = unknownIsOccupied;
         set.cellSize_ = grid.resolution();
         set.columns_ = grid.width();
         set.rows_ = grid.height();
@@ -166,11 +184,7 @@ namespace parking
                         static_cast<double>(grid.height()) * grid.resolution()}};
         set.cells_.resize(grid.cells().size());
         std::transform(grid.cells().begin(), grid.cells().end(), set.cells_.begin(),
-                       [unknownIsOccupied](Cell cell) -> std::uint8_t
-                       { return cell == Cell::Occupied || (unknownIsOccupied && cell == Cell::Unknown); });
-        set.rectangles_ = mergeCells(set.cells_, set.columns_, set.rows_, set.cellSize_);
-        addCellEdges(set.cells_, set.columns_, set.rows_, set.cellSize_, set.edges_);
-        set.addBoundsEdges();
+                       [unknownIsOccupied](Cell cell) -> std::uint8_t { return isObstacle(cell, unknownIsOccupied); });
         return set;
     }
 
@@ -195,13 +209,69 @@ namespace parking
                            [&point](const Polygon &polygon) { return contains(polygon, point); });
     }
 
-    void ObstacleSet::addBoundsEdges()
+    const ObstacleSet::Derived &ObstacleSet::derived() const
     {
-        const Eigen::Vector2d &a = bounds_.min, &c = bounds_.max;
-        const Eigen::Vector2d b{c.x(), a.y()}, d{a.x(), c.y()};
-        edges_.push_back({a, b});
-        edges_.push_back({b, c});
-        edges_.push_back({c, d});
-        edges_.push_back({d, a});
+        std::call_once(derived_->once,
+                       [this]
+                       {
+                           std::vector<Edge> &edges = derived_->edges;
+                           if (cellSize_ > 0.0)
+                           {
+                               derived_->rectangles = mergeCells(cells_, columns_, rows_, cellSize_);
+                               addCellEdges(cells_, columns_, rows_, cellSize_, {0, columns_, 0, rows_}, edges);
+                           }
+                           for (const Polygon &polygon : polygons_)
+                               for (std::size_t k = 0; k < polygon.size(); ++k)
+                                   edges.push_back({polygon[k], polygon[(k + 1) % polygon.size()]});
+                           addBoundsEdges(bounds_, edges);
+                       });
+        return *derived_;
+    }
+
+    std::vector<Edge> ObstacleSet::edgesNear(const Box &box) const
+    {
+        // One more cell on each side, so that rounding loses none.
+        const auto index = [this](double value, std::size_t count)
+        {
+            return static_cast<std::size_t>(std::clamp(value / cellSize_, 0.0, static_cast<double>(count)));
+        };
+        const Window window{index(box.min.x() - cellSize_, columns_), index(box.max.x() + 2.0 * cellSize_, columns_),
+                            index(box.min.y() - cellSize_, rows_), index(box.max.y() + 2.0 * cellSize_, rows_)};
+        std::vector<Edge> edges;
+        addCellEdges(cells_, columns_, rows_, cellSize_, window, edges);
+        addBoundsEdges(bounds_, edges);
+        return edges;
+    }
+
+    std::vector<std::size_t> ObstacleSet::update(const GridUpdate &update)
+    {
+        if (cellSize_ == 0.0)
+            throw Error("a world of polygons cannot be updated by cells; make a new one");
+        checkUpdate(update, columns_, rows_);
+        std::vector<std::size_t> changed;
+        for (const CellChange &change : update)
+        {
+            const std::size_t index = change.row * columns_ + change.column;
+            const std::uint8_t value = isObstacle(change.cell, unknownIsOccupied_);
+            if (cells_[index] != value)
+                changed.push_back(index);
+            cells_[index] = value;
+        }
+        std::sort(changed.begin(), changed.end());
+        // A cell that has changed an even number of times is as it was.
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < changed.size();)
+        {
+            std::size_t end = k;
+            while (end < changed.size() && changed[end] == changed[k])
+                ++end;
+            if ((end - k) % 2 == 1)
+                changed[kept++] = changed[k];
+            k = end;
+        }
+        changed.resize(kept);
+        if (!changed.empty())
+            derived_ = std::make_shared<Derived>();
+        return changed;
     }
 }  // namespace parking

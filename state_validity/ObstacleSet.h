@@ -68,9 +68,9 @@ namespace parking
             return derived().edges;
         }
 
-        /** \brief Appends edges of all obstacles and of the bounds near \e box to \e edges. Together they cover the
-           part of edges() inside of the box. */
-        void edgesNear(const Box &box, std::vector<Edge> &edges) const;
+        /** \brief Edges of a grid world near \e box, including those of the bounds. They cover the part of edges()
+            inside of the box. */
+        std::vector<Edge> edgesNear(const Box &box) const;
 
         /** \brief Solid polygons in the local frame, counter-clockwise; empty for a grid world. */
         const std::vector<Polygon> &polygons() const

@@ -34,8 +34,8 @@ namespace parking
         /** \brief A world of which only the car's own ground has been seen.
 
             \param truth supplies car, start, goals, slot, bounds and coordinates; its obstacles are not used
-            Throws parking::Error for invalid parameters, without a perception, and for bounds of more than 2^31
-            cells. */
+            Throws parking::Error for invalid parameters, without a perception, and for bounds of less than one or more
+            than 2^31 cells. */
         PerceivedWorld(const Scenario &truth, std::shared_ptr<Perception> perception,
                        const PerceptionParameters &parameters = {});
 

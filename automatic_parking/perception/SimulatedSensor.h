@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <random>
 #include <vector>
 
 namespace parking
@@ -35,8 +37,8 @@ namespace parking
 
     /** \brief A range sensor that sees a true world by ray casting.
 
-        From the sensor, rays cross the cells of the map until they meet an obstacle or the end of the range. No cell in
-        the range is narrower than the gap of two rays. The cells that a ray crosses are seen: occupied if an obstacle
+        From the sensor, rays cross the cells of the map until they meet an obstacle or the end of the range. The gap
+        between two rays is at most the side of a cell. The cells that a ray crosses are seen: occupied if an obstacle
         touches them, otherwise free. Cells behind obstacles stay as they are. So the occupied cells cover every
         obstacle where it has been seen, and a free cell contains no part of an obstacle.
 
@@ -54,7 +56,7 @@ namespace parking
             \param timed further obstacles
             Throws parking::Error for invalid parameters, obstacles and times. */
         explicit SimulatedSensor(const Scenario &truth, const SensorParameters &parameters = {},
-                                 std::vector<TimedObstacle> timed = {});
+                                 const std::vector<TimedObstacle> &timed = {});
         ~SimulatedSensor() override;
 
         /** \brief The first call sees, and then the first one in each period of the sensor.
@@ -65,6 +67,22 @@ namespace parking
     private:
         class Raster;
 
+        struct Timed
+        {
+            TimedObstacle obstacle;
+            std::vector<Polygon> solids;
+            bool exists;  // in the raster
+        };
+
+        void prepare(double time, const OccupancyGrid &map);
+        double noise();
+
+        SensorParameters parameters_;
+        std::vector<Polygon> solids_;  // of the scenario
+        std::vector<Timed> timed_;
         std::unique_ptr<Raster> raster_;
+        std::mt19937_64 random_;
+        std::optional<double> firstTime_;
+        double period_{-1.0};  // number of the period of the last frame
     };
 }  // namespace parking

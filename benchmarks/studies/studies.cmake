@@ -9,6 +9,11 @@ target_link_libraries(validity_benchmark PRIVATE
 target_compile_definitions(validity_benchmark PRIVATE
   PARKING_SCENARIOS="${PROJECT_SOURCE_DIR}/benchmarks/scenarios")
 
+# Sensor frames: what they cost, and what updates of the world in place cost.
+add_executable(perception_benchmark ${CMAKE_CURRENT_LIST_DIR}/perception_benchmark.cpp)
+target_link_libraries(perception_benchmark PRIVATE
+  parking_build_flags parking_planner parking_perception parking_worlds benchmark::benchmark)
+
 # Planning without end in random worlds, on several threads: what scripts/soak runs.
 add_executable(soak ${CMAKE_CURRENT_LIST_DIR}/soak.cpp)
 target_link_libraries(soak PRIVATE parking_build_flags parking_comparison parking_worlds Threads::Threads)

@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     f'{TRACKING}/trajectory': [VALIDITY, GEOMETRY],
     PIPELINE: LIBRARIES,
     f'{PIPELINE}/scenario': LIBRARIES,
+    f'{PIPELINE}/perception': [VALIDITY, GEOMETRY],
     'python': LIBRARIES,
     'playground': LIBRARIES,
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
@@ -55,6 +56,7 @@ NEVER = {
     TRACKING: ['ompl/', 'fcl/'] + READERS,
     f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
     f'{PIPELINE}/scenario': OUTSIDE + ADAPTERS,
+    f'{PIPELINE}/perception': OUTSIDE + ADAPTERS,
     'playground': OUTSIDE + ADAPTERS,
     'python': ['ompl/', 'fcl/', 'ceres/', f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/'],
     'integrations': OUTSIDE + ADAPTERS,
