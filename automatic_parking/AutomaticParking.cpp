@@ -179,7 +179,12 @@ namespace parking
     private:
         void note(const std::string &event)
         {
-            result_.events.push_back(rounded(time_, 1e-3) + " s: " + event);
+            note(time_, event);
+        }
+
+        void note(double time, const std::string &event)
+        {
+            result_.events.push_back(rounded(time, 1e-3) + " s: " + event);
         }
 
         void finish(ParkingStatus status, const std::string &message)
@@ -453,15 +458,15 @@ namespace parking
             if (!found.failure.empty())
             {
                 if (!blocked.empty())
-                    note("stopping to plan: " + found.failure);
+                    note(reaction.time, "stopping to plan: " + found.failure);
                 cause_ = blocked;
                 return;
             }
             reaction.kind = blocked.empty() ? ReactionKind::Better
                             : found.stops  ? ReactionKind::Braked
                                             : ReactionKind::Moving;
-            note((blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
-                 (found.stops ? ", after braking" : ", in motion"));
+            note(reaction.time, (blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
+                                    (found.stops ? ", after braking" : ", in motion"));
             goal_ = found.plan.goal;
             leg.plan = std::move(found.plan);
             leg.trajectory = std::move(found.trajectory);
