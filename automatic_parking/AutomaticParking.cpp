@@ -6,6 +6,7 @@
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/trajectory/MotionCheck.h"
+#include "path_tracking/trajectory/Splice.h"
 #include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/sweeps/PathSweep.h"
 
@@ -31,6 +32,12 @@ namespace parking
         constexpr double BRAKE_USED = 0.95;
         /** Minimum distance in metres that the guard keeps: poses are not known more accurately. */
         constexpr double MIN_GAP = 0.005;
+
+        /** Expansions per gap of a search on seen ground, which may not reach the goal. */
+        constexpr std::uint64_t EXPANSIONS_ON_SEEN_GROUND = 500;
+
+        /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
+        constexpr double TIME_TO_DECIDE = 1.0;
 
         double yawBetween(const Pose &a, const Pose &b)
         {
@@ -110,7 +117,7 @@ namespace parking
                 ParkingLeg leg;
                 leg.reason = reason;
                 leg.begin = time_;
-                leg.plan = ParkingPlanner(parameters_.planning).plan(scenario_, world_);
+                leg.plan = planned(parameters_.planning);
                 result_.planningTime += leg.plan.planningTime + leg.plan.smoothingTime;
                 refuseTooNarrow(leg.plan);
                 note(reason + ": " + leg.plan.message);
@@ -248,7 +255,26 @@ namespace parking
                 std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
             if (plan.path.pieces.size() != plan.arcs.pieces.size())
                 options.others.push_back(plan.arcs);
-            return quickestTrajectory(world_.footprint(), scenario_.bounds, plan.path, options, interrupted);
+            return quickestTrajectory(planWorld_->footprint(), scenario_.bounds, plan.path, options, interrupted);
+        }
+
+        /** A plan from scenario_.start: on seen ground, if that suffices. Unseen ground often holds obstacles. */
+        ParkingPlan planned(const PlanningParameters &parameters)
+        {
+            planWorld_ = &world_;
+            if (closed_)
+            {
+                PlanningParameters careful = parameters;
+                careful.expansionsPerGap = std::min(careful.expansionsPerGap, EXPANSIONS_ON_SEEN_GROUND);
+                careful.timeLimit = std::numeric_limits<double>::infinity();
+                ParkingPlan plan = ParkingPlanner(careful).plan(scenario_, *closed_);
+                if (plan.found)
+                {
+                    planWorld_ = &*closed_;
+                    return plan;
+                }
+            }
+            return ParkingPlanner(parameters).plan(scenario_, world_);
         }
 
         /** Share of the car's acceleration that plans use. */
@@ -361,6 +387,7 @@ namespace parking
         {
             const double gap = gapOf(leg);
             enlarged_ = seenGround().enlarged(gap);
+            isBlockedLater_ = false;
             keepsGap_ = isFreeFrom(leg, driven, gap);
         }
 
@@ -394,16 +421,16 @@ namespace parking
         {
             Reaction reaction;
             reaction.time = leg.begin + record.t;
-            const Stopwatch updating;
             const double driven = std::max(0.0, record.control.s - parameters_.lookBack);
-            const Change change = seen_ ? look(reaction.time, record.control.estimate)
+            const Change change = seen_ ? look(reaction.time, record.control.estimate, reaction.updateTime)
                                         : takeOver(update_(reaction.time, record.control.estimate));
-            reaction.updateTime = updating.seconds();
-            if (!change.any)
+            if (!change.any && !isBlockedLater_)
                 return;
             const Stopwatch checking;
             std::string blocked = change.moved ? "the goal has changed" : "";
-            if (change.closed && isBlocked(leg, driven))
+            if (change.closed)
+                isBlockedLater_ = isBlocked(leg, driven);
+            if (isBlockedLater_ && isUrgent(leg, record, driven))
                 blocked = "the map has changed";
             reaction.checkTime = checking.seconds();
             hasOpened_ = hasOpened_ || change.opened;
@@ -433,9 +460,16 @@ namespace parking
             if (leg.trajectory && parameters_.reactionTime > 0.0 && drives)
             {
                 const Stopwatch watch;
-                const std::function<bool()> late = [&] { return watch.seconds() > parameters_.reactionLimit; };
+                const std::function<bool()> late = [&]
+                {
+                    return watch.seconds() > parameters_.reactionLimit;
+                };
                 PlanningParameters planning = parameters_.planning;
                 planning.interrupted = late;
+                // Time matters more than the last centimetres of clearance, which the trajectory keeps by itself.
+                planning.clearanceCost = 0.0;
+                if (planning.gaps.size() > 4)
+                    planning.gaps.erase(planning.gaps.begin(), planning.gaps.end() - 4);
                 isReacting_ = true;
                 const TimedMotion &motion = leg.trajectory->trajectory.motion;
                 found = replan({motion, scenario_.vehicle, now, now + parameters_.reactionTime,
@@ -443,11 +477,14 @@ namespace parking
                                 [&](const Pose &pose)
                                 {
                                     scenario_.start = pose;
-                                    return ParkingPlanner(planning).plan(scenario_, world_);
+                                    return planned(planning);
                                 },
                                 [&](const ParkingPlan &plan, double steering, double speed)
                                 { return optimized(plan, steering, speed, late); },
-                                [&](const TimedMotion &next) { return isFree(next, driven, world_.footprint()); }});
+                                [&](const TimedMotion &next)
+                                {
+                                    return isFree(next, driven, world_.footprint());
+                                }});
                 isReacting_ = false;
                 if (late())
                     found.failure = "planning took too long";
@@ -463,7 +500,7 @@ namespace parking
                 return;
             }
             reaction.kind = blocked.empty() ? ReactionKind::Better
-                            : found.stops  ? ReactionKind::Braked
+                            : found.stops   ? ReactionKind::Braked
                                             : ReactionKind::Moving;
             note(reaction.time, (blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
                                     (found.stops ? ", after braking" : ", in motion"));
@@ -481,10 +518,11 @@ namespace parking
             bool any{false}, closed{false}, opened{false}, moved{false};
         };
 
-        /** Takes over a frame of the sensors. */
-        Change look(double time, const Pose &car)
+        /** Takes over a frame of the sensors. Sets \e duration to the seconds that the update takes. */
+        Change look(double time, const Pose &car, double &duration)
         {
             const GridUpdate &update = seen_->observe(time, car);
+            const Stopwatch updating;
             Change change;
             change.any = !update.empty();
             for (const CellChange &cell : update)
@@ -494,6 +532,7 @@ namespace parking
                 world_.update(update);
                 closed_->update(update);
             }
+            duration = updating.seconds();
             return change;
         }
 
@@ -517,10 +556,23 @@ namespace parking
             return {true, true, true, moved};
         }
 
+        /** Whether the car must decide now, because it is blocked within the time to stop and a second. A later
+           decision knows more of the world, so the car changes its mind less often. */
+        bool isUrgent(const ParkingLeg &leg, const DriveRecord &record, double driven) const
+        {
+            if (!leg.trajectory)
+                return true;
+            const double braking =
+                std::abs(record.car.speed) / (accelerationShare() * scenario_.vehicle.maxAcceleration);
+            const double until = record.control.time + parameters_.reactionTime + braking + TIME_TO_DECIDE;
+            const auto checker = world_.enlarged(gapOf(leg));
+            return !checker || !isFree(beginOf(leg.trajectory->trajectory.motion, until), driven, *checker);
+        }
+
         /** Whether the rest of the drive is blocked in the changed world.
 
-            Obstacles closer than the guard's gap would be passed at creeping speed without a reserve for control errors.
-            If they were as close before the change, the plan has accepted them. */
+            Obstacles closer than the guard's gap would be passed at creeping speed without a reserve for control
+           errors. If they were as close before the change, the plan has accepted them. */
         bool isBlocked(const ParkingLeg &leg, double driven)
         {
             const bool keptGap = keepsGap_;
@@ -597,6 +649,8 @@ namespace parking
         std::unique_ptr<PerceivedWorld> seen_;              // null if the world is known
         std::optional<ParkingWorld> truth_, closed_;        // of a perceived world: the true one, and the seen ground
         std::shared_ptr<const FootprintChecker> enlarged_;  // the body with its clearance while stopping
+        const ParkingWorld *planWorld_{&world_};            // of the latest plan
+        bool isBlockedLater_{false};                        // whether the driven motion is blocked
         bool keepsGap_{false};                              // whether the rest of the drive keeps that clearance
         bool isReacting_{false};                            // whether a motion from the moving car is searched
         bool hasOpened_{false};                             // whether ground has become free since the last search

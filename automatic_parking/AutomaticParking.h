@@ -1,8 +1,8 @@
 #pragma once
 
 #include "automatic_parking/ParkingPlanner.h"
-#include "automatic_parking/perception/PerceivedWorld.h"
 #include "automatic_parking/QuickestTrajectory.h"
+#include "automatic_parking/perception/PerceivedWorld.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/trajectory/Trajectory.h"
@@ -126,9 +126,9 @@ namespace parking
     /** \brief The whole pipeline of the paper in one call: it plans, smooths and drives in a given map, for a given
         car, start and slot.
 
-        If a change of the map blocks the rest of the trajectory, the car continues on a new one without a stop: it starts
-        where the car will be, with its speed and steering angle. If that is not possible, the car brakes, and the new
-        trajectory continues from there (see replan()).
+        If a change of the map blocks the rest of the trajectory, the car continues on a new one without a stop: it
+       starts where the car will be, with its speed and steering angle. If that is not possible, the car brakes, and the
+       new trajectory continues from there (see replan()).
 
         The car stops, plans again from its estimated pose and drives on in these cases:
         - A change of the map blocks the rest of the path, and no trajectory is found from the moving car.

@@ -233,7 +233,8 @@ namespace parking
                 trueLeg = record.control.leg;
                 trueS = controller.reference().legs()[trueLeg].beginLength;
             }
-            const PathProjection place = controller.reference().project(trueLeg, record.car.pose, trueS - 1.0, trueS + 1.0);
+            const PathProjection place =
+                controller.reference().project(trueLeg, record.car.pose, trueS - 1.0, trueS + 1.0);
             trueS = place.s;
             record.crossTrack = place.lateral;
             record.headingError = place.yaw;

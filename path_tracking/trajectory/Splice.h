@@ -10,8 +10,8 @@ namespace parking
 
     /** \brief The motion up to \e time seconds after its first knot, then braking to rest along its own path.
 
-        Where the motion itself is slower, its speed is kept. The steering angle is that of the motion at the same place,
-        so the steering rate never exceeds that of the motion.
+        Where the motion itself is slower, its speed is kept. The steering angle is that of the motion at the same
+       place, so the steering rate never exceeds that of the motion.
 
         \param deceleration m/s^2, positive */
     TimedMotion stopAfter(const TimedMotion &motion, const Vehicle &vehicle, double time, double deceleration);
