@@ -1,10 +1,12 @@
 #include "automatic_parking/AutomaticParking.h"
 
+#include "automatic_parking/Replanning.h"
 #include "automatic_parking/Stopwatch.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/trajectory/MotionCheck.h"
+#include "path_tracking/trajectory/Splice.h"
 #include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/sweeps/PathSweep.h"
 
@@ -31,6 +33,12 @@ namespace parking
         /** Minimum distance in metres that the guard keeps: poses are not known more accurately. */
         constexpr double MIN_GAP = 0.005;
 
+        /** Expansions per gap of a search on seen ground, which may not reach the goal. */
+        constexpr std::uint64_t EXPANSIONS_ON_SEEN_GROUND = 500;
+
+        /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
+        constexpr double TIME_TO_DECIDE = 1.0;
+
         double yawBetween(const Pose &a, const Pose &b)
         {
             return std::abs(wrapAngle(a.yaw - b.yaw));
@@ -54,6 +62,9 @@ namespace parking
         require.positive("goalYawTolerance", goalYawTolerance);
         require.notNegative("lookBack", lookBack);
         require.notNegative("stopClearance", stopClearance);
+        require.notNegative("reactionTime", reactionTime);
+        require.that(reactionLimit > 0.0, "reactionLimit", reactionLimit, "above 0");
+        require.positive("minTimeGain", minTimeGain);
     }
 
     ParkingParameters::ParkingParameters()
@@ -78,6 +89,24 @@ namespace parking
         {
         }
 
+        /** Hides the obstacles of the scenario: from here on they serve only to find collisions. */
+        void perceive(const std::shared_ptr<Perception> &perception, const PerceptionParameters &parameters,
+                      const Pose &start)
+        {
+            truth_ = world_;
+            Scenario placed = scenario_;
+            placed.start = start;
+            seen_ = std::make_unique<PerceivedWorld>(placed, perception, parameters);
+            seen_->observe(0.0, start);
+            const Pose nominal = scenario_.start;
+            scenario_ = seen_->scenario();
+            scenario_.start = nominal;
+            world_ = ParkingWorld(scenario_, fclContactTest(), IndexedObstacles::LOCAL_REACH);
+            Scenario closed = scenario_;
+            closed.unknownIsOccupied = true;
+            closed_ = ParkingWorld(closed, fclContactTest(), IndexedObstacles::LOCAL_REACH);
+        }
+
         ParkingResult park(const std::optional<Pose> &start)
         {
             // The estimated pose may differ from the true one; both continue from drive to drive.
@@ -88,7 +117,7 @@ namespace parking
                 ParkingLeg leg;
                 leg.reason = reason;
                 leg.begin = time_;
-                leg.plan = ParkingPlanner(parameters_.planning).plan(scenario_, world_);
+                leg.plan = planned(parameters_.planning);
                 result_.planningTime += leg.plan.planningTime + leg.plan.smoothingTime;
                 refuseTooNarrow(leg.plan);
                 note(reason + ": " + leg.plan.message);
@@ -157,7 +186,12 @@ namespace parking
     private:
         void note(const std::string &event)
         {
-            result_.events.push_back(rounded(time_, 1e-3) + " s: " + event);
+            note(time_, event);
+        }
+
+        void note(double time, const std::string &event)
+        {
+            result_.events.push_back(rounded(time, 1e-3) + " s: " + event);
         }
 
         void finish(ParkingStatus status, const std::string &message)
@@ -183,35 +217,64 @@ namespace parking
         /** Optimises a trajectory that is faster than the path of \e leg. */
         void optimize(ParkingLeg &leg)
         {
-            if (!parameters_.optimizeTrajectory || leg.plan.clearance < parameters_.motionClearance)
-                return;
             const Stopwatch watch;
-            const Vehicle &car = scenario_.vehicle;
-            QuickestTrajectoryOptions options = parameters_.trajectory;
-            options.trajectory.initialSteering = std::clamp(steering_, -car.maxSteeringAngle, car.maxSteeringAngle);
-            options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
-            options.trajectory.margin =
-                std::max(options.trajectory.margin,
-                         std::min(parameters_.minClearance, parameters_.clearanceShare * leg.plan.clearance));
-            options.trajectory.preferredClearance =
-                std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
-            if (leg.plan.path.pieces.size() != leg.plan.arcs.pieces.size())
-                options.others.push_back(leg.plan.arcs);
             try
             {
-                QuickestTrajectory found =
-                    quickestTrajectory(world_.footprint(), scenario_.bounds, leg.plan.path, options);
-                if (found.trajectory.fallback)
-                    note("the car stops to steer: " + found.trajectory.reason);
-                else
-                    leg.trajectory = std::move(found);
+                leg.trajectory = optimized(leg.plan, steering_, 0.0, {});
             }
             catch (const Error &error)
             {
                 note(std::string("the car stops to steer: ") + error.what());
             }
+            if (leg.trajectory && leg.trajectory->trajectory.fallback)
+            {
+                note("the car stops to steer: " + leg.trajectory->trajectory.reason);
+                leg.trajectory.reset();
+            }
             leg.optimizationTime = watch.seconds();
             result_.planningTime += leg.optimizationTime;
+        }
+
+        /** A trajectory along \e plan, unless the plan must be driven with standstills. A car in motion searches no
+            alternative paths, since it has no time for them. */
+        std::optional<QuickestTrajectory> optimized(const ParkingPlan &plan, double steering, double speed,
+                                                    const std::function<bool()> &interrupted) const
+        {
+            if (!parameters_.optimizeTrajectory || plan.clearance < parameters_.motionClearance)
+                return std::nullopt;
+            const Vehicle &car = scenario_.vehicle;
+            QuickestTrajectoryOptions options = parameters_.trajectory;
+            options.trajectory.initialSteering = std::clamp(steering, -car.maxSteeringAngle, car.maxSteeringAngle);
+            options.trajectory.initialSpeed = speed;
+            options.alternatives = options.alternatives && !isReacting_;
+            options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
+            options.trajectory.margin =
+                std::max(options.trajectory.margin,
+                         std::min(parameters_.minClearance, parameters_.clearanceShare * plan.clearance));
+            options.trajectory.preferredClearance =
+                std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
+            if (plan.path.pieces.size() != plan.arcs.pieces.size())
+                options.others.push_back(plan.arcs);
+            return quickestTrajectory(planWorld_->footprint(), scenario_.bounds, plan.path, options, interrupted);
+        }
+
+        /** A plan from scenario_.start: on seen ground, if that suffices. Unseen ground often holds obstacles. */
+        ParkingPlan planned(const PlanningParameters &parameters)
+        {
+            planWorld_ = &world_;
+            if (closed_)
+            {
+                PlanningParameters careful = parameters;
+                careful.expansionsPerGap = std::min(careful.expansionsPerGap, EXPANSIONS_ON_SEEN_GROUND);
+                careful.timeLimit = std::numeric_limits<double>::infinity();
+                ParkingPlan plan = ParkingPlanner(careful).plan(scenario_, *closed_);
+                if (plan.found)
+                {
+                    planWorld_ = &*closed_;
+                    return plan;
+                }
+            }
+            return ParkingPlanner(parameters).plan(scenario_, world_);
         }
 
         /** Share of the car's acceleration that plans use. */
@@ -249,7 +312,14 @@ namespace parking
         {
             if (enlarged_ && enlarged_->isFree(stoppingPath.start))
                 return isPathFree(*enlarged_, stoppingPath);
-            return !world_.footprint().isFree(stoppingPath.start) || isPathFree(world_.footprint(), stoppingPath);
+            const FootprintChecker &footprint = seenGround().footprint();
+            return !footprint.isFree(stoppingPath.start) || isPathFree(footprint, stoppingPath);
+        }
+
+        /** The world in which the car must be able to stop: without ground that it has not seen. */
+        const ParkingWorld &seenGround() const
+        {
+            return closed_ ? *closed_ : world_;
         }
 
         /** Drives the plan of \e leg. \return false if it cannot be driven */
@@ -266,13 +336,14 @@ namespace parking
             loop.setClearance(
                 [this](const Pose &pose)
                 {
-                    const FootprintChecker &footprint = world_.footprint();
+                    const FootprintChecker &footprint = (truth_ ? *truth_ : world_).footprint();
                     return footprint.isFree(pose) ? footprint.clearance(pose) : 0.0;
                 });
             cause_.clear();
-            enlarged_ = world_.enlarged(gapOf(leg));
+            beginWatching(leg, 0.0);
             loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingPath); });
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
+            loop.setSplice([this](const DriveRecord &) { return std::exchange(next_, std::nullopt); });
             try
             {
                 leg.drive = leg.trajectory ? loop.follow(leg.trajectory->trajectory.motion, truth)
@@ -311,8 +382,17 @@ namespace parking
                    yawBetween(pose, goal) <= parameters_.goalYawTolerance;
         }
 
+        /** Prepares the checks of a drive of which \e driven metres are over. */
+        void beginWatching(const ParkingLeg &leg, double driven)
+        {
+            const double gap = gapOf(leg);
+            enlarged_ = seenGround().enlarged(gap);
+            isBlockedLater_ = false;
+            keepsGap_ = isFreeFrom(leg, driven, gap);
+        }
+
         /** Monitors each period of a drive. \return false to request a safe stop */
-        bool watch(const ParkingLeg &leg, const DriveRecord &record)
+        bool watch(ParkingLeg &leg, const DriveRecord &record)
         {
             if (!cause_.empty())
                 return true;  // stopping already
@@ -322,11 +402,10 @@ namespace parking
             else if (std::abs(record.control.headingError) > parameters_.replanHeadingError)
                 cause_ = "the heading is " + rounded(std::abs(record.control.headingError) * 180.0 / PI, 1.0) +
                          " degrees off the path";
-            else if (update_)
+            else if (update_ || seen_)
                 try
                 {
-                    if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
-                        takeOver(std::move(*changed), leg, record.control.s);
+                    react(leg, record);
                 }
                 catch (const std::exception &error)
                 {
@@ -337,9 +416,132 @@ namespace parking
             return cause_.empty();
         }
 
-        /** Replaces the world. */
-        void takeOver(Scenario changed, const ParkingLeg &leg, double s)
+        /** Takes over changes of the world, and continues on another motion if they require or suggest it. */
+        void react(ParkingLeg &leg, const DriveRecord &record)
         {
+            Reaction reaction;
+            reaction.time = leg.begin + record.t;
+            const double driven = std::max(0.0, record.control.s - parameters_.lookBack);
+            const Change change = seen_ ? look(reaction.time, record.control.estimate, reaction.updateTime)
+                                        : takeOver(update_(reaction.time, record.control.estimate));
+            if (!change.any && !isBlockedLater_)
+                return;
+            const Stopwatch checking;
+            std::string blocked = change.moved ? "the goal has changed" : "";
+            if (change.closed)
+                isBlockedLater_ = isBlocked(leg, driven);
+            if (isBlockedLater_ && isUrgent(leg, record, driven))
+                blocked = "the map has changed";
+            reaction.checkTime = checking.seconds();
+            hasOpened_ = hasOpened_ || change.opened;
+            const bool mayImprove = hasOpened_ && reaction.time >= nextImprovement_;
+            if (!blocked.empty() || mayImprove)
+            {
+                const Stopwatch planning;
+                replanInMotion(leg, record, driven, blocked, reaction);
+                reaction.planningTime = planning.seconds();
+                result_.planningTime += reaction.planningTime;
+            }
+            result_.reactions.push_back(reaction);
+        }
+
+        /** Searches a motion from the moving car; \e blocked tells why, and is empty if the driven one is free. */
+        void replanInMotion(ParkingLeg &leg, const DriveRecord &record, double driven, const std::string &blocked,
+                            Reaction &reaction)
+        {
+            reaction.kind = blocked.empty() ? ReactionKind::Kept : ReactionKind::Stopped;
+            const double now = record.control.time;
+            const bool drives =
+                record.control.mode == TrackingMode::Driving || record.control.mode == TrackingMode::Steering;
+            Replan found;
+            found.failure = "the path is driven with stops to steer";
+            hasOpened_ = false;
+            nextImprovement_ = reaction.time + parameters_.minTimeGain;
+            if (leg.trajectory && parameters_.reactionTime > 0.0 && drives)
+            {
+                const Stopwatch watch;
+                const std::function<bool()> late = [&]
+                {
+                    return watch.seconds() > parameters_.reactionLimit;
+                };
+                PlanningParameters planning = parameters_.planning;
+                planning.interrupted = late;
+                // Time matters more than the last centimetres of clearance, which the trajectory keeps by itself.
+                planning.clearanceCost = 0.0;
+                if (planning.gaps.size() > 4)
+                    planning.gaps.erase(planning.gaps.begin(), planning.gaps.end() - 4);
+                isReacting_ = true;
+                const TimedMotion &motion = leg.trajectory->trajectory.motion;
+                found = replan({motion, scenario_.vehicle, now, now + parameters_.reactionTime,
+                                accelerationShare() * scenario_.vehicle.maxAcceleration,
+                                [&](const Pose &pose)
+                                {
+                                    scenario_.start = pose;
+                                    return planned(planning);
+                                },
+                                [&](const ParkingPlan &plan, double steering, double speed)
+                                { return optimized(plan, steering, speed, late); },
+                                [&](const TimedMotion &next)
+                                {
+                                    return isFree(next, driven, world_.footprint());
+                                }});
+                isReacting_ = false;
+                if (late())
+                    found.failure = "planning took too long";
+                if (found.failure.empty() && blocked.empty() &&
+                    found.motion.duration() > motion.duration() - parameters_.minTimeGain)
+                    return;
+            }
+            if (!found.failure.empty())
+            {
+                if (!blocked.empty())
+                    note(reaction.time, "stopping to plan: " + found.failure);
+                cause_ = blocked;
+                return;
+            }
+            reaction.kind = blocked.empty() ? ReactionKind::Better
+                            : found.stops   ? ReactionKind::Braked
+                                            : ReactionKind::Moving;
+            note(reaction.time, (blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
+                                    (found.stops ? ", after braking" : ", in motion"));
+            goal_ = found.plan.goal;
+            leg.plan = std::move(found.plan);
+            leg.trajectory = std::move(found.trajectory);
+            leg.trajectory->trajectory.motion = found.motion;
+            next_ = std::move(found.motion);
+            beginWatching(leg, driven);
+        }
+
+        /** What a change of the world may affect. */
+        struct Change
+        {
+            bool any{false}, closed{false}, opened{false}, moved{false};
+        };
+
+        /** Takes over a frame of the sensors. Sets \e duration to the seconds that the update takes. */
+        Change look(double time, const Pose &car, double &duration)
+        {
+            const GridUpdate &update = seen_->observe(time, car);
+            const Stopwatch updating;
+            Change change;
+            change.any = !update.empty();
+            for (const CellChange &cell : update)
+                (cell.cell == Cell::Occupied ? change.closed : change.opened) = true;
+            if (change.any)
+            {
+                world_.update(update);
+                closed_->update(update);
+            }
+            duration = updating.seconds();
+            return change;
+        }
+
+        /** Replaces the world, if there is a changed one. */
+        Change takeOver(std::optional<Scenario> next)
+        {
+            if (!next)
+                return {};
+            Scenario &changed = *next;
             if (changed.worldOffset != scenario_.worldOffset)
                 throw Error("scenario " + changed.name + ": a changed map must have the worldOffset of the first one");
             if (changed.goals.empty())
@@ -349,30 +551,48 @@ namespace parking
             // Goals from perception jitter. The current goal stays valid if a car there would be within the tolerances.
             const bool moved = std::none_of(changed.goals.begin(), changed.goals.end(),
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
-            const ParkingWorld before = world_;
             world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
-            enlarged_ = world_.enlarged(gapOf(leg));
-            const double driven = std::max(0.0, s - parameters_.lookBack), gap = gapOf(leg);
-            // Obstacles closer than the guard's gap would be passed at creeping speed without a reserve for control
-            // errors. If they were as close before the change, the plan has accepted them.
-            if (moved)
-                cause_ = "the goal has changed";
-            else if (!isFreeFrom(leg, driven, world_, 0.0) ||
-                     (!isFreeFrom(leg, driven, world_, gap) && isFreeFrom(leg, driven, before, gap)))
-                cause_ = "the map has changed";
+            return {true, true, true, moved};
         }
 
-        /** Whether the drive after its first \e driven metres is free in \e world with a clearance of \e gap. */
-        bool isFreeFrom(const ParkingLeg &leg, double driven, const ParkingWorld &world, double gap) const
+        /** Whether the car must decide now, because it is blocked within the time to stop and a second. A later
+           decision knows more of the world, so the car changes its mind less often. */
+        bool isUrgent(const ParkingLeg &leg, const DriveRecord &record, double driven) const
         {
-            const std::shared_ptr<const FootprintChecker> checker = world.enlarged(gap);
+            if (!leg.trajectory)
+                return true;
+            const double braking =
+                std::abs(record.car.speed) / (accelerationShare() * scenario_.vehicle.maxAcceleration);
+            const double until = record.control.time + parameters_.reactionTime + braking + TIME_TO_DECIDE;
+            const auto checker = world_.enlarged(gapOf(leg));
+            return !checker || !isFree(beginOf(leg.trajectory->trajectory.motion, until), driven, *checker);
+        }
+
+        /** Whether the rest of the drive is blocked in the changed world.
+
+            Obstacles closer than the guard's gap would be passed at creeping speed without a reserve for control
+           errors. If they were as close before the change, the plan has accepted them. */
+        bool isBlocked(const ParkingLeg &leg, double driven)
+        {
+            const bool keptGap = keepsGap_;
+            beginWatching(leg, driven);
+            return !keepsGap_ && (keptGap || !isFreeFrom(leg, driven, 0.0));
+        }
+
+        /** Whether the drive after its first \e driven metres is free with a clearance of \e gap. */
+        bool isFreeFrom(const ParkingLeg &leg, double driven, double gap) const
+        {
+            const std::shared_ptr<const FootprintChecker> checker = world_.enlarged(gap);
             if (!checker)
                 return false;
-            if (!leg.trajectory)
-                return isPathFree(*checker, leg.plan.path.rest(driven));
-            const TimedMotion rest = restOf(leg.trajectory->trajectory.motion, scenario_.vehicle, driven);
-            return collisionsOf(rest, *checker, 1).empty();
+            return leg.trajectory ? isFree(leg.trajectory->trajectory.motion, driven, *checker)
+                                  : isPathFree(*checker, leg.plan.path.rest(driven));
+        }
+
+        bool isFree(const TimedMotion &motion, double driven, const FootprintChecker &checker) const
+        {
+            return collisionsOf(restOf(motion, scenario_.vehicle, driven), checker, 1).empty();
         }
 
         /** Whether parking is finished. Otherwise \e reason is set to that of the replan. */
@@ -426,7 +646,16 @@ namespace parking
         double time_{0.0};
         double steering_{0.0};
         bool hopeless_{false};                              // whether planning again is useless
+        std::unique_ptr<PerceivedWorld> seen_;              // null if the world is known
+        std::optional<ParkingWorld> truth_, closed_;        // of a perceived world: the true one, and the seen ground
         std::shared_ptr<const FootprintChecker> enlarged_;  // the body with its clearance while stopping
+        const ParkingWorld *planWorld_{&world_};            // of the latest plan
+        bool isBlockedLater_{false};                        // whether the driven motion is blocked
+        bool keepsGap_{false};                              // whether the rest of the drive keeps that clearance
+        bool isReacting_{false};                            // whether a motion from the moving car is searched
+        bool hasOpened_{false};                             // whether ground has become free since the last search
+        double nextImprovement_{0.0};                       // seconds, when a quicker motion may be searched
+        std::optional<TimedMotion> next_;                   // replaces the driven motion in this period
         std::string cause_;                                 // why watch() stopped the current drive; empty otherwise
         ParkingResult result_;
     };
@@ -441,9 +670,19 @@ namespace parking
         update_ = std::move(update);
     }
 
+    void AutomaticParking::setPerception(std::shared_ptr<Perception> perception, const PerceptionParameters &parameters)
+    {
+        parameters.validate();
+        perception_ = std::move(perception);
+        perceptionParameters_ = parameters;
+    }
+
     ParkingResult AutomaticParking::park(const Scenario &scenario, const std::optional<Pose> &start) const
     {
-        return Session(parameters_, update_, scenario).park(start);
+        Session session(parameters_, update_, scenario);
+        if (perception_)
+            session.perceive(perception_, perceptionParameters_, start.value_or(scenario.start));
+        return session.park(start);
     }
 
     ParkingResult AutomaticParking::drive(const Scenario &scenario, const Path &path) const

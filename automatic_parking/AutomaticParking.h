@@ -2,12 +2,15 @@
 
 #include "automatic_parking/ParkingPlanner.h"
 #include "automatic_parking/QuickestTrajectory.h"
+#include "automatic_parking/perception/PerceivedWorld.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +39,16 @@ namespace parking
             matter. */
         double motionClearance{0.03};
 
-        std::size_t maxReplans{3};        ///< number of plans after the first one
+        /** Seconds from a change of the map to the earliest splice of a new motion. At 0 the car stops before it plans
+            again. */
+        double reactionTime{0.2};
+        /** Seconds of computation for a new motion; if they do not suffice, the car stops. Infinite: equal inputs give
+            equal drives. */
+        double reactionLimit{std::numeric_limits<double>::infinity()};
+        /** Seconds that a new motion must save if the driven one is still free. At most one such motion is searched in
+            this time. */
+        double minTimeGain{2.0};
+        std::size_t maxReplans{3};        ///< number of plans after the first one, with the car at rest
         double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and replans
         double replanHeadingError{0.35};  ///< radians off the heading of the path at which the car stops and replans
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off replans
@@ -55,13 +67,34 @@ namespace parking
         void validate() const;
     };
 
+    /** \brief Result of a change of the world during a drive. */
+    enum class ReactionKind
+    {
+        Kept,    ///< the driven motion stays free
+        Moving,  ///< continued in motion along another path
+        Braked,  ///< braked to rest along the driven path, and continued along another one
+        Better,  ///< continued along a quicker path, although the driven one stayed free
+        Stopped  ///< no motion was found: a safe stop
+    };
+
+    /** \brief A change of the world during a drive, and the reaction to it. */
+    struct Reaction
+    {
+        double time{0.0};                       ///< seconds since the first command
+        ReactionKind kind{ReactionKind::Kept};  ///< the result
+        double updateTime{0.0};                 ///< seconds, to perceive and to update the world
+        double checkTime{0.0};                  ///< seconds, to check the driven motion
+        double planningTime{0.0};               ///< seconds, for a new motion
+    };
+
     /** \brief One plan and the drive along it. */
     struct ParkingLeg
     {
         std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
         double begin{0.0};   ///< seconds since the first command
-        ParkingPlan plan;    ///< its path has no pieces if the car already stands at the goal
-        /** The driven trajectory; absent if the path itself is driven. */
+        /** The latest plan. Its path has no pieces if the car already stands at the goal. */
+        ParkingPlan plan;
+        /** The driven trajectory with all new motions; absent if the path itself is driven. */
         std::optional<QuickestTrajectory> trajectory;
         double optimizationTime{0.0};  ///< seconds
         DriveResult drive;             ///< empty without a plan, or if the car already stands at the goal
@@ -86,13 +119,19 @@ namespace parking
 
         /** \brief Events of all drives and plans, with their times. */
         std::vector<std::string> events;
+
+        std::vector<Reaction> reactions;  ///< to changes of the world, in order of time
     };
 
     /** \brief The whole pipeline of the paper in one call: it plans, smooths and drives in a given map, for a given
         car, start and slot.
 
+        If a change of the map blocks the rest of the trajectory, the car continues on a new one without a stop: it
+       starts where the car will be, with its speed and steering angle. If that is not possible, the car brakes, and the
+       new trajectory continues from there (see replan()).
+
         The car stops, plans again from its estimated pose and drives on in these cases:
-        - A change of the map blocks the rest of the path.
+        - A change of the map blocks the rest of the path, and no trajectory is found from the moving car.
         - The car strays from the path, or its wheels do not follow.
         - Its pose was lost for a while.
         - It could not stop in time if it drove on.
@@ -121,6 +160,16 @@ namespace parking
         /** \brief Sets the function that reports changes of the world. If it is empty, the world is constant. */
         void setMapUpdate(MapUpdate update);
 
+        /** \brief Sets the sensors of the car. The obstacles of a scenario then serve only for the collision check of
+            the simulated drive; the car knows what it has perceived.
+
+            The car plans on ground that it has not seen, unless \e parameters forbid it. It drives only as fast as it
+            can stop on ground that it has seen. A perception that throws leads to a safe stop.
+
+            \param perception one per drive, since it has a clock; null removes it
+            Throws parking::Error for invalid parameters. */
+        void setPerception(std::shared_ptr<Perception> perception, const PerceptionParameters &parameters = {});
+
         /** \brief Parks the car of \e scenario.
 
             Throws parking::Error for an invalid scenario (no goal, an invalid car). All other failures are in the
@@ -137,6 +186,8 @@ namespace parking
 
         ParkingParameters parameters_;
         MapUpdate update_;
+        std::shared_ptr<Perception> perception_;
+        PerceptionParameters perceptionParameters_;
     };
 
     /** \brief Combines the figures of several consecutive drives into those of one drive. */

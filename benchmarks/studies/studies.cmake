@@ -19,8 +19,13 @@ add_executable(soak ${CMAKE_CURRENT_LIST_DIR}/soak.cpp)
 target_link_libraries(soak PRIVATE parking_build_flags parking_comparison parking_worlds Threads::Threads)
 
 # Drives that meet trouble: a table of what happened, for docs/results.md.
-add_executable(troubled_drives ${CMAKE_CURRENT_LIST_DIR}/troubled_drives.cpp ${CMAKE_CURRENT_LIST_DIR}/TroubledDrives.cpp)
+add_executable(troubled_drives ${CMAKE_CURRENT_LIST_DIR}/troubled_drives.cpp ${CMAKE_CURRENT_LIST_DIR}/TroubledDrives.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/Surprise.cpp)
 target_link_libraries(troubled_drives PRIVATE parking_build_flags parking_comparison parking_worlds)
+
+# Drives in perceived worlds in which obstacles appear: the reaction to them, for docs/results.md.
+add_executable(perceived_drives ${CMAKE_CURRENT_LIST_DIR}/perceived_drives.cpp ${CMAKE_CURRENT_LIST_DIR}/Surprise.cpp)
+target_link_libraries(perceived_drives PRIVATE parking_build_flags parking_comparison parking_worlds)
 
 # Which car parks in which slot: docs/results/car-slot-table.md is what this program writes.
 add_executable(car_slot_table ${CMAKE_CURRENT_LIST_DIR}/car_slot_table.cpp)

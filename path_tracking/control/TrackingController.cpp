@@ -20,6 +20,7 @@ namespace parking
         constexpr double STEERING_WAIT_LIMIT = 2.0;  // seconds of waiting for wheels without progress
         constexpr double MIN_PROGRESS = 1e-4;        // radians per period that count as progress
         constexpr double NO_TIME = 1e-9;             // seconds
+        constexpr double SAME = 1e-3;                // metres, radians, m/s and seconds between equal references
 
         double towards(double from, double to, double most)
         {
@@ -63,6 +64,35 @@ namespace parking
         stopRequest_ = reason.empty() ? "stop requested" : reason;
     }
 
+    bool TrackingController::replaceReference(std::shared_ptr<const TimedReference> reference)
+    {
+        if (!reference)
+            throw Error("tracking: there is no reference");
+        if ((mode_ != TrackingMode::Driving && mode_ != TrackingMode::Steering) || turnsLast_)
+            return false;
+        const std::vector<TimedLeg> &now = reference_->legs(), &next = reference->legs();
+        const auto startsAlike = [&](std::size_t i)
+        {
+            return now[i].direction == next[i].direction && std::abs(now[i].standstill - next[i].standstill) <= SAME &&
+                   std::abs(now[i].beginLength - next[i].beginLength) <= SAME;
+        };
+        bool same = next.size() > leg_;
+        for (std::size_t i = 0; same && i < leg_; ++i)
+            same = startsAlike(i) && std::abs(now[i].endLength - next[i].endLength) <= SAME;
+        if (same && mode_ == TrackingMode::Driving)
+        {
+            const TimedState a = reference_->at(leg_, clock_), b = reference->at(leg_, clock_);
+            same = startsAlike(leg_) && isSamePose(a.pose, b.pose, SAME) && std::abs(a.speed - b.speed) <= SAME &&
+                   std::abs(a.steering - b.steering) <= SAME;
+        }
+        if (!same)
+            throw Error("tracking: the new reference differs from the driven one before the car");
+        if (mode_ == TrackingMode::Steering)
+            clock_ += reference_->beginOf(leg_) - reference->beginOf(leg_);
+        reference_ = std::move(reference);
+        return true;
+    }
+
     TrackingStep TrackingController::step(const Measurement &measurement)
     {
         TrackingStep step;
@@ -101,6 +131,7 @@ namespace parking
 
         step.mode = mode_;
         step.leg = leg_;
+        step.time = reference_->beginOf(leg_) + clock_;
         step.estimate = estimator().pose();
         last_ = {step.command.acceleration, step.command.steering};
         response_.give(step.command);

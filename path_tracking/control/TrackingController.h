@@ -37,6 +37,7 @@ namespace parking
         std::size_t leg{0};                         ///< index into the legs of the reference
         Pose estimate;                              ///< of the car, filtered
         double s{0.0};                              ///< metres along the reference
+        double time{0.0};                           ///< seconds since the start of the reference, by the clock
         double crossTrack{0.0};                     ///< metres to the left of the reference, of the estimate
         double headingError{0.0};                   ///< radians
         bool solved{false};                         ///< whether the optimiser ran
@@ -123,6 +124,15 @@ namespace parking
 
         /** \brief Sets the guard that checks each command on a leg; may be empty. */
         void setGuard(Guard guard);
+
+        /** \brief Replaces the part of the reference that is still ahead, while the car drives or steers.
+
+            The legs before, and the state at the controller's clock, must be those of the present reference. Speed and
+            steering are then continuous.
+
+            \return whether it was replaced; not if the car makes a safe stop or has finished its last leg
+            Throws parking::Error for a null reference or one that differs before. */
+        bool replaceReference(std::shared_ptr<const TimedReference> reference);
 
         /** \brief Requests a safe stop, which begins with the next step. \param reason text of its event */
         void requestStop(const std::string &reason);

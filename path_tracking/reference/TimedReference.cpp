@@ -139,12 +139,17 @@ namespace parking
         finalStandstill_ = standstill;
     }
 
+    double TimedReference::beginOf(std::size_t leg) const
+    {
+        double sum = legs_[leg].standstill;
+        for (std::size_t i = 0; i < leg; ++i)
+            sum += legs_[i].standstill + legs_[i].duration;
+        return sum;
+    }
+
     double TimedReference::duration() const
     {
-        double sum = finalStandstill_;
-        for (const TimedLeg &leg : legs_)
-            sum += leg.standstill + leg.duration;
-        return sum;
+        return beginOf(legs_.size() - 1) + legs_.back().duration + finalStandstill_;
     }
 
     Pose TimedReference::poseBetween(const TimedState &a, const TimedState &b, double s) const

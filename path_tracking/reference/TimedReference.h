@@ -113,6 +113,9 @@ namespace parking
             return legs_.back().endLength;
         }
 
+        /** \brief Seconds from the start of the reference to the start of the motion on leg \e leg. */
+        double beginOf(std::size_t leg) const;
+
         /** \brief Seconds from the start to the end, standstills included. */
         double duration() const;
 

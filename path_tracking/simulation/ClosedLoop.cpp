@@ -171,10 +171,15 @@ namespace parking
         guard_ = std::move(guard);
     }
 
+    void ClosedLoop::setSplice(Splice splice)
+    {
+        splice_ = std::move(splice);
+    }
+
     DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
     {
         TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering);
-        return run(controller, path.end(), start.value_or(path.start), initialSteering);
+        return run(controller, path.end(), start.value_or(path.start), initialSteering, {});
     }
 
     DriveResult ClosedLoop::follow(const TimedMotion &motion, const std::optional<Pose> &start) const
@@ -183,15 +188,14 @@ namespace parking
         const Pose goal = reference->end();
         const double steering = motion.knots.front().steering;
         TrackingController controller(std::move(reference), vehicle_, parameters_.tracking, steering);
-        return run(controller, goal, start.value_or(motion.start), steering);
+        return run(controller, goal, start.value_or(motion.start), steering, splice_);
     }
 
     DriveResult ClosedLoop::run(TrackingController &controller, const Pose &goal, const Pose &start,
-                                double initialSteering) const
+                                double initialSteering, const Splice &splice) const
     {
-        const TimedReference &reference = controller.reference();
-        if (!(reference.duration() <= LONGEST_MOTION))
-            throw Error("closed loop: the path takes " + formatNumber(std::round(reference.duration())) +
+        if (!(controller.reference().duration() <= LONGEST_MOTION))
+            throw Error("closed loop: the path takes " + formatNumber(std::round(controller.reference().duration())) +
                         " s; at most " + formatNumber(LONGEST_MOTION) + " s are driven");
         controller.setGuard(guard_);
         Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, PLANT_STEP);
@@ -199,7 +203,7 @@ namespace parking
         recorder.begin(plant.state());
 
         const double period = parameters_.tracking.mpc.step;
-        const double timeLimit = EXTRA_TIME + TIME_RATIO * reference.duration();
+        Pose wanted = goal;
         DriveResult result;
         double t = 0.0, trueS = 0.0;
         std::size_t trueLeg = 0;
@@ -216,7 +220,7 @@ namespace parking
         for (std::size_t count = 0;; ++count)
         {
             t = static_cast<double>(count) * period;
-            if (t > timeLimit)
+            if (t > EXTRA_TIME + TIME_RATIO * controller.reference().duration())
                 controller.requestStop("the drive takes too long");
             DriveRecord record;
             record.t = t;
@@ -227,9 +231,10 @@ namespace parking
             if (record.control.leg != trueLeg)
             {
                 trueLeg = record.control.leg;
-                trueS = reference.legs()[trueLeg].beginLength;
+                trueS = controller.reference().legs()[trueLeg].beginLength;
             }
-            const PathProjection place = reference.project(trueLeg, record.car.pose, trueS - 1.0, trueS + 1.0);
+            const PathProjection place =
+                controller.reference().project(trueLeg, record.car.pose, trueS - 1.0, trueS + 1.0);
             trueS = place.s;
             record.crossTrack = place.lateral;
             record.headingError = place.yaw;
@@ -242,6 +247,14 @@ namespace parking
             const bool over = controller.finished() && record.car.speed == 0.0;
             if (!over && monitor_ && !monitor_(record))
                 controller.requestStop("the monitor requested it");
+            if (!over && splice)
+                if (const std::optional<TimedMotion> next = splice(record))
+                {
+                    auto reference = std::make_shared<TimedReference>(*next, vehicle_);
+                    const Pose end = reference->end();
+                    if (controller.replaceReference(std::move(reference)))
+                        wanted = end;
+                }
             result.log.push_back(record);
             if (over)
                 break;
@@ -263,7 +276,7 @@ namespace parking
         result.arrived = controller.mode() == TrackingMode::Arrived;
         if (result.arrived)
             result.message = "arrived";
-        result.evaluation = recorder.finish(goal, t);
+        result.evaluation = recorder.finish(wanted, t);
         result.response = controller.learntResponse();
         return result;
     }

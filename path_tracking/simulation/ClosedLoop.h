@@ -104,6 +104,12 @@ namespace parking
             map. */
         using Monitor = std::function<bool(const DriveRecord &)>;
 
+        /** \brief Replaces the motion of follow() during the drive, called each period while the car drives or steers.
+
+            It returns a motion that equals the followed one up to a time after TrackingStep::time, or nothing to keep
+            it. */
+        using Splice = std::function<std::optional<TimedMotion>(const DriveRecord &)>;
+
         /** \brief Throws parking::Error if \e vehicle or \e parameters are not valid. */
         ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters = {});
 
@@ -115,6 +121,9 @@ namespace parking
 
         /** \brief Sets the guard that checks each command (see TrackingController::Guard). */
         void setGuard(TrackingController::Guard guard);
+
+        /** \brief Sets the function that replaces the motion of follow(); may be empty. */
+        void setSplice(Splice splice);
 
         /** \brief Drives along \e path.
 
@@ -131,13 +140,14 @@ namespace parking
         DriveResult follow(const TimedMotion &motion, const std::optional<Pose> &start = std::nullopt) const;
 
     private:
-        DriveResult run(TrackingController &controller, const Pose &goal, const Pose &start,
-                        double initialSteering) const;
+        DriveResult run(TrackingController &controller, const Pose &goal, const Pose &start, double initialSteering,
+                        const Splice &splice) const;
 
         Vehicle vehicle_;
         ClosedLoopParameters parameters_;
         Clearance clearance_;
         Monitor monitor_;
+        Splice splice_;
         TrackingController::Guard guard_;
     };
 }  // namespace parking

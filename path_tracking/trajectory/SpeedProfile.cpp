@@ -61,10 +61,11 @@ namespace parking
     }
 
     std::vector<double> squaredSpeeds(const std::vector<double> &lengths, const std::vector<double> &caps,
-                                      double acceleration)
+                                      double acceleration, double initial)
     {
         const std::size_t n = lengths.size();
         std::vector<double> squared(n + 1, 0.0);
+        squared.front() = initial;
         for (std::size_t i = 1; i < n; ++i)
             squared[i] = std::min({caps[i - 1], caps[i], squared[i - 1] + 2.0 * acceleration * lengths[i - 1]});
         for (std::size_t i = n; i-- > 0;)

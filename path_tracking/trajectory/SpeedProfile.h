@@ -39,16 +39,18 @@ namespace parking
         double speed;  ///< m/s, not negative
     };
 
-    /** \brief The maximum squared speeds, (m/s)^2, at the borders of the parts of a path driven from rest to rest.
+    /** \brief The maximum squared speeds, (m/s)^2, at the borders of the parts of a path that ends at rest.
 
         Each respects the caps of both adjacent parts and is reachable from both ends, by one forward and one backward
         pass. With bounded acceleration the squared speed is linear in the driven length.
 
         \param lengths metres, of the parts
         \param caps (m/s)^2, of the squared speed on each part
-        \param acceleration m/s^2 */
+        \param acceleration m/s^2
+        \param initial (m/s)^2, of the squared speed at the start; the first result is lower if the path is too short to
+        brake */
     std::vector<double> squaredSpeeds(const std::vector<double> &lengths, const std::vector<double> &caps,
-                                      double acceleration);
+                                      double acceleration, double initial = 0.0);
 
     /** \brief The fastest drive from rest to rest along a leg.
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -79,8 +80,11 @@ namespace parking
         share("share of the steering angle", steeringShare);
         share("share of the steering rate", steeringRateShare);
         require.that(step >= 0.02 && step <= 2.0, "step", step, "from 0.02 to 2 seconds");
+        require.notNegative("initial speed", initialSpeed, "m/s");
         if (initialSteering)
             require.finite("initial steering angle", *initialSteering, "radians");
+        else
+            require.that(initialSpeed == 0.0, "initial speed", initialSpeed, "0 without an initial steering angle");
         if (finalSteering)
             require.finite("final steering angle", *finalSteering, "radians");
     }
@@ -145,7 +149,7 @@ namespace parking
             std::stable_sort(solutions.begin(), solutions.end(),
                              [](const MotionSolution &a, const MotionSolution &b) { return a.cost < b.cost; });
             std::optional<MotionSolution> found = improveBest(solutions);
-            if (found)
+            if (found && owner_.options_.initialSpeed == 0.0)
                 dropStretches(*found);
             if (found && owner_.options_.sharpest)
                 refine(*found);
@@ -172,8 +176,14 @@ namespace parking
                 view.goal = from.end();
                 view.separation.margin = owner.options_.margin;
                 view.separation.range = RANGE;
-                outline.emplace(owner.outline(guessesAlong(local, owner.body_), step));
+                addOutline(owner);
                 minCost = owner.options_.weights.time * outline->duration();
+            }
+
+            void addOutline(const TrajectoryOptimizer &owner)
+            {
+                outline.emplace(
+                    owner.outline(guessesAlong(local, owner.body_, owner.options_.initialSpeed), step));
             }
 
             Path local;  // in the coordinates of the pieces
@@ -257,7 +267,7 @@ namespace parking
             {
                 attempt.view.separation.margin *= 0.25;
                 attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MAX_INTERVALS);
-                attempt.outline.emplace(owner_.outline(guessesAlong(attempt.local, owner_.body_), attempt.step));
+                attempt.addOutline(owner_);
             }
             return std::nullopt;
         }
@@ -389,6 +399,8 @@ namespace parking
             result.motion = std::move(motion);
             result.path = i;
         }
+        if (options_.initialSpeed > 0.0)
+            result.motion = {};  // a moving car cannot stop at once to steer
         if (interrupted && interrupted())
             result.reason = "interrupted";
         else if (searched.empty())
@@ -403,12 +415,14 @@ namespace parking
                                       const std::function<bool()> &interrupted, OptimizedTrajectory &result) const
     {
         Search search(*this, interrupted);
-        auto found = search.run(paths, which, costOf(result.motion));
+        const double limit =
+            result.motion.knots.empty() ? std::numeric_limits<double>::infinity() : costOf(result.motion);
+        auto found = search.run(paths, which, limit);
         result.rounds = search.solver().rounds();
         result.iterations = search.solver().iterations();
         // If even instant steering would cost as much, no program was solved, and the solver has no reason.
         const bool isPointless = !found && search.solver().reason().empty();
-        if (isPointless || (found && costOf(found->motion) >= costOf(result.motion)))
+        if (isPointless || (found && costOf(found->motion) >= limit))
             result.reason = "stopping to steer is equally fast";
         else if (!found)
             result.reason = search.solver().reason();

@@ -40,6 +40,9 @@ namespace parking
         bool sharpest{true};
 
         std::optional<double> initialSteering{0.0};  ///< radians at the start; if absent, the initial steering is free
+        /** Speed at the start in m/s, in the direction of the path's first stretch. A moving car has an initial steering
+            angle, and no motion by stopAndSteer(). */
+        double initialSpeed{0.0};
         std::optional<double> finalSteering{0.0};    ///< radians at the end; if absent, the final steering is free
         std::size_t maxRounds{6};                    ///< maximum number of attempts along a path, and of improvements
 
@@ -57,7 +60,8 @@ namespace parking
     struct OptimizedTrajectory
     {
         TimedMotion motion;         ///< collision-free, within the limits
-        bool fallback{false};       ///< whether the motion is that of stopAndSteer()
+        /** Whether the motion is that of stopAndSteer(). For a moving start it is then empty. */
+        bool fallback{false};
         std::string reason;         ///< why no better motion was found; empty otherwise
         std::size_t path{0};        ///< index of the path from which it was optimised
         std::size_t rounds{0};      ///< number of programs solved
@@ -91,7 +95,7 @@ namespace parking
 
         /** \brief The best motion found near \e path, in the coordinates of the checker.
 
-            If time is the only cost, it is never slower than stopAndSteer().
+            If time is the only cost and the car starts at rest, it is never slower than stopAndSteer().
 
             \param interrupted polled about every millisecond; may be empty. Once it returns true, the result is the
             best motion found so far, otherwise that of stopAndSteer().

@@ -96,7 +96,7 @@ namespace parking
         }
     }  // namespace
 
-    StretchGuess::StretchGuess(const Path &path, const Vehicle &vehicle) : direction_(1)
+    StretchGuess::StretchGuess(const Path &path, const Vehicle &vehicle, double initialSpeed) : direction_(1)
     {
         const double length = path.length();
         const auto parts = static_cast<std::size_t>(std::max(20.0, std::ceil(length / GRID)));
@@ -122,7 +122,7 @@ namespace parking
         const std::vector<double> steering = averaged(angles, static_cast<std::size_t>(STEERING_WINDOW / grid));
         for (std::size_t i = 0; i <= parts; ++i)
             points_[i].steering = std::clamp(steering[i], -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
-        setSpeeds(std::vector<double>(parts, grid), vehicle);
+        setSpeeds(std::vector<double>(parts, grid), vehicle, initialSpeed);
     }
 
     StretchGuess::StretchGuess(int direction, std::vector<GuessPoint> points, const Vehicle &vehicle)
@@ -132,16 +132,18 @@ namespace parking
         std::vector<double> distances;
         for (std::size_t i = 1; i < points_.size(); ++i)
             distances.push_back(std::max(MIN_DISTANCE, positionDistance(points_[i - 1].pose, points_[i].pose)));
-        setSpeeds(distances, vehicle);
+        setSpeeds(distances, vehicle, 0.0);
     }
 
-    void StretchGuess::setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle)
+    void StretchGuess::setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle, double initialSpeed)
     {
         const double cap = vehicle.maxSpeed * vehicle.maxSpeed;
         const std::vector<double> squared =
-            squaredSpeeds(distances, std::vector<double>(distances.size(), cap), vehicle.maxAcceleration);
+            squaredSpeeds(distances, std::vector<double>(distances.size(), cap), vehicle.maxAcceleration,
+                          initialSpeed * initialSpeed);
         for (std::size_t i = 0; i < points_.size(); ++i)
             points_[i].speed = std::sqrt(squared[i]);
+        points_.front().speed = initialSpeed;  // too fast for a short stretch, whose program then has no solution
         points_.front().t = 0.0;
         for (std::size_t i = 0; i < distances.size(); ++i)
             points_[i + 1].t = points_[i].t + 2.0 * distances[i] / (points_[i].speed + points_[i + 1].speed);
@@ -179,7 +181,7 @@ namespace parking
         return lengthOf(points_);
     }
 
-    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle)
+    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle, double initialSpeed)
     {
         std::vector<StretchGuess> guesses;
         double yaw = path.start.yaw;
@@ -187,7 +189,7 @@ namespace parking
         {
             Path part = path.part(stretch.first, stretch.last);
             part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
-            guesses.emplace_back(part, vehicle);
+            guesses.emplace_back(part, vehicle, guesses.empty() ? initialSpeed : 0.0);
             yaw = guesses.back().at(guesses.back().duration()).pose.yaw;
         }
         return guesses;

@@ -26,8 +26,9 @@ namespace parking
     class StretchGuess
     {
     public:
-        /** \param path in one direction, without turns on the spot */
-        StretchGuess(const Path &path, const Vehicle &vehicle);
+        /** \param path in one direction, without turns on the spot
+            \param initialSpeed m/s at its start, not negative */
+        StretchGuess(const Path &path, const Vehicle &vehicle, double initialSpeed = 0.0);
 
         /** \brief A drive through given poses and steering angles.
             \param points at least two, in order, with pose and steering angle; times and speeds are recomputed */
@@ -62,14 +63,15 @@ namespace parking
         GuessPoint at(double t) const;
 
     private:
-        void setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle);
+        void setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle, double initialSpeed);
 
         int direction_;
         std::vector<GuessPoint> points_;
     };
 
-    /** \brief Guesses for the stretches of a path; yaw is continuous along them. */
-    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle);
+    /** \brief Guesses for the stretches of a path; yaw is continuous along them.
+        \param initialSpeed m/s at the start of the path, not negative */
+    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle, double initialSpeed = 0.0);
 
     /** \brief The stretches of the motion given by the nodes of a problem, in order. */
     std::vector<StretchGuess> stretchesOf(const MotionProblem &problem, const Vehicle &vehicle);

@@ -33,9 +33,10 @@ namespace parking
             at.steering = from;
             addNode(at, std::abs(to - from) / steeringRate_ + SPARE_STANDSTILL, fixed);
         };
-        if (initialSteering)
+        const GuessPoint begin = guesses_.front().at(0.0);
+        const bool moves = begin.speed > 0.0;
+        if (initialSteering && !moves)
         {
-            const GuessPoint begin = guesses_.front().at(0.0);
             standstill(begin, *initialSteering, begin.steering, POSE | bit(NODE_SPEED) | bit(NODE_STEERING));
             addInterval(0, 0, 0.0, false);
         }
@@ -43,6 +44,11 @@ namespace parking
         {
             const bool last = i + 1 == guesses_.size();
             addStretch(i, step);
+            if (i == 0 && initialSteering && moves)
+            {
+                nodes_.front()[NODE_STEERING] = *initialSteering;
+                fixed_.front() |= bit(NODE_STEERING);
+            }
             const GuessPoint end = guesses_[i].at(guesses_[i].duration());
             if (!last)
                 standstill(end, end.steering, guesses_[i + 1].at(0.0).steering, bit(NODE_SPEED));

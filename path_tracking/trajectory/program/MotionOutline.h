@@ -15,7 +15,7 @@ namespace parking
     /** \brief The nodes of a motion program along guessed stretches, and the guessed poses between them.
 
         Each stretch is split into intervals of equal duration. A standstill lies between two stretches, and at each end
-        with a prescribed steering angle. */
+        with a prescribed steering angle. A first stretch that starts in motion has none. */
     class MotionOutline
     {
     public:

@@ -45,6 +45,60 @@ namespace parking
             }
         }
 
+        TEST(TrajectoryOptimizer, AMovingCarKeepsSpeedAndSteeringAtTheStart)
+        {
+            const FootprintChecker checker = checkerOf({box(60.0, 60.0, 1.0, 1.0, 0.0)});
+            std::size_t found = 0, count = 0;
+            for (std::uint64_t seed = 1; seed <= 40; ++seed)
+            {
+                const Path path = test::randomReedsShepp(seed, 10.0);
+                const Stretch first = path.stretches().front();
+                if (path.part(first.first, first.last).length() < 3.0)
+                    continue;
+                ++count;
+                TrajectoryOptions options;
+                options.initialSpeed = 1.2;
+                options.initialSteering = 0.3 * std::sin(static_cast<double>(seed));
+                const OptimizedTrajectory result = TrajectoryOptimizer(checker, options).optimize(path);
+                if (result.fallback)
+                {
+                    EXPECT_TRUE(result.motion.knots.empty());
+                    continue;
+                }
+                ++found;
+                EXPECT_EQ(result.motion.knots.front().v, first.direction * options.initialSpeed);
+                EXPECT_EQ(result.motion.knots.front().steering, *options.initialSteering);
+                EXPECT_EQ(result.motion.knots.back().v, 0.0);
+                EXPECT_TRUE(isSamePose(endOf(result.motion, Vehicle()), path.end(), 2e-3)) << seed;
+                const std::vector<MotionKnot> &knots = result.motion.knots;
+                for (std::size_t i = 1; i < knots.size(); ++i)
+                {
+                    const double h = knots[i].t - knots[i - 1].t;
+                    EXPECT_LE(std::abs(knots[i].v - knots[i - 1].v), 1.000001 * Vehicle().maxAcceleration * h);
+                    EXPECT_LE(std::abs(knots[i].steering - knots[i - 1].steering),
+                              1.000001 * Vehicle().maxSteeringRate * h);
+                }
+            }
+            EXPECT_GE(count, 20u);
+            EXPECT_GE(found, count - 2);
+        }
+
+        TEST(TrajectoryOptimizer, AMovingCarBrakesOnAStraightLineIfThatSuffices)
+        {
+            const FootprintChecker checker = checkerOf({});
+            TrajectoryOptions options;
+            options.initialSpeed = 2.0;  // brakes within 2 m
+            const auto along = [&](double length)
+            {
+                return TrajectoryOptimizer(checker, options).optimize({{}, {{0.0, length}}});
+            };
+            EXPECT_TRUE(along(1.95).motion.knots.empty());
+            ASSERT_FALSE(along(2.1).fallback);
+            // With a peak at p: p^2 = (2 l + v^2) / 2 for an acceleration of 1 m/s^2.
+            const double peak = std::sqrt(0.5 * (2.0 * 4.0 + 4.0));
+            EXPECT_NEAR(along(4.0).motion.duration(), (peak - 2.0) + peak, 2e-3);
+        }
+
         TEST(TrajectoryOptimizer, CoarseStepsTakeHardlyLongerThanFineOnes)
         {
             const FootprintChecker checker = checkerOf({});

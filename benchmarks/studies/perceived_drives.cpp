@@ -1,0 +1,227 @@
+// Simulates drives of a car that perceives its world while obstacles appear. Writes tables of docs/results.md.
+
+#include "automatic_parking/AutomaticParking.h"
+#include "automatic_parking/perception/SimulatedSensor.h"
+#include "benchmarks/studies/Surprise.h"
+#include "benchmarks/system/CommandLine.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace po = boost::program_options;
+
+namespace
+{
+    using namespace parking;
+    using parking_test::PolygonOracle;
+    using parking_test::Random;
+
+    constexpr std::size_t MAX_REPLANS = 10;  // obstacles may appear on every way
+
+    /** Values with their percentiles, by nearest rank. */
+    struct Sample
+    {
+        std::vector<double> values;
+
+        double rank(double share)
+        {
+            if (values.empty())
+                return 0.0;
+            std::sort(values.begin(), values.end());
+            const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+            return values[std::max<std::size_t>(n, 1) - 1];
+        }
+
+        std::string inMilliseconds()
+        {
+            std::string text;
+            for (const double share : {0.5, 0.99, 1.0})
+                text += (text.empty() ? "" : " / ") + formatNumber(std::round(1e5 * rank(share)) / 100.0);
+            return text;
+        }
+    };
+
+    /** Sums over the drives of one way to react. */
+    struct Row
+    {
+        explicit Row(const std::string &theName) : name(theName)
+        {
+        }
+
+        std::string name;
+        std::size_t drives{0}, parked{0}, hits{0}, inevitable{0}, rolling{0}, stops{0}, motions{0};
+        Sample ratio, checks, plans;
+
+        void add(const ParkingResult &result, const Scenario &scenario, const Surprise *surprise, bool avoidable,
+                 double knownTime)
+        {
+            ++drives;
+            std::optional<Touch> touch;
+            if (!result.trajectory.empty())
+                touch = firstTouch(result.trajectory, scenario.vehicle, PolygonOracle(scenario), 0.0);
+            const bool other = touch.has_value();
+            if (!touch && surprise)
+                touch = firstTouch(result.trajectory, scenario.vehicle, alone(surprise->obstacle), surprise->time);
+            hits += touch && (other || avoidable) ? 1 : 0;
+            inevitable += touch && !other && !avoidable ? 1 : 0;
+            rolling += !result.trajectory.empty() && result.trajectory.back().v != 0.0 ? 1 : 0;
+            stops += result.legs.empty() ? 0 : result.legs.size() - 1;
+            for (const Reaction &reaction : result.reactions)
+            {
+                checks.values.push_back(reaction.updateTime + reaction.checkTime);
+                if (reaction.kind == ReactionKind::Kept)
+                    continue;
+                stops += reaction.kind == ReactionKind::Braked ? 1 : 0;
+                motions += reaction.kind != ReactionKind::Stopped ? 1 : 0;
+                if (reaction.kind != ReactionKind::Stopped)
+                    plans.values.push_back(reaction.updateTime + reaction.checkTime + reaction.planningTime);
+            }
+            if (!result.parked() || touch)
+                return;
+            ++parked;
+            ratio.values.push_back(result.trajectory.back().t / knownTime);
+        }
+
+        std::string text()
+        {
+            return "| " + name + " | " + std::to_string(drives) + " | " + std::to_string(parked) + " | " +
+                   std::to_string(hits) + " | " + std::to_string(inevitable) + " | " + std::to_string(stops) + " | " +
+                   std::to_string(motions) + " | " + formatNumber(ratio.rank(0.5), 3) + " | " +
+                   formatNumber(ratio.rank(0.9), 3) + " | " + checks.inMilliseconds() + " | " + plans.inMilliseconds() +
+                   " |\n";
+        }
+    };
+
+    /** One drive of a car with a sensor. */
+    ParkingResult perceived(const Scenario &scenario, const ParkingParameters &parameters,
+                            const SensorParameters &sensor, const PerceptionParameters &map, const Surprise *surprise)
+    {
+        std::vector<TimedObstacle> timed;
+        if (surprise)
+            timed.push_back({surprise->obstacle, surprise->time});
+        AutomaticParking parking(parameters);
+        parking.setPerception(std::make_shared<SimulatedSensor>(scenario, sensor, timed), map);
+        return parking.park(scenario);
+    }
+
+    struct Study
+    {
+        ParkingParameters parameters;
+        SensorParameters sensor;
+        PerceptionParameters map;
+        bool verbose{false};
+        Row reacting{"reacts in motion"}, stopping{"stops to plan"};
+        std::size_t withoutDrive{0};
+
+        void drive(const Scenario &scenario, std::uint64_t seed)
+        {
+            Random random(seed * 2654435761U + 1);
+            parameters.drive.disturbances.seed = random.bits();
+            const ParkingResult calm = perceived(scenario, parameters, sensor, map, nullptr);
+            if (!calm.parked() || calm.trajectory.back().t == 0.0)
+            {
+                ++withoutDrive;
+                if (verbose)
+                    std::cerr << scenario.name << ", drive " << seed << ": " << calm.message << '\n';
+                return;
+            }
+            const auto surprise = random.chance(0.7) ? surpriseFor(scenario, calm.trajectory, random) : std::nullopt;
+            const Surprise *appears = surprise ? &*surprise : nullptr;
+            Scenario informed = scenario;
+            if (surprise)
+                informed.polygons.push_back(surprise->obstacle);
+            const ParkingResult known = AutomaticParking(parameters).park(informed);
+            if (!known.parked())
+            {
+                ++withoutDrive;
+                return;
+            }
+            const double knownTime = known.trajectory.back().t;
+            const double reaction = parameters.drive.tracking.mpc.step + 1.0 / sensor.rate;
+            const bool avoidable =
+                surprise && isFree(brakingPath(calm.trajectory, scenario.vehicle, parameters.drive.disturbances,
+                                               surprise->time, surprise->time + reaction),
+                                   scenario.vehicle, alone(surprise->obstacle), SPARE_AT_STOP);
+            const ParkingResult result = appears ? perceived(scenario, parameters, sensor, map, appears) : calm;
+            ParkingParameters old = parameters;
+            old.reactionTime = 0.0;
+            const ParkingResult stops = perceived(scenario, old, sensor, map, appears);
+            const std::size_t hits = reacting.hits;
+            reacting.add(result, scenario, appears, avoidable, knownTime);
+            stopping.add(stops, scenario, appears, avoidable, knownTime);
+            if (!verbose && reacting.hits == hits)
+                return;
+            std::cerr << scenario.name << ", drive " << seed << ": " << result.message
+                      << " (stopping: " << stops.message << ", known: " << known.message << ' ' << knownTime << " s)"
+                      << (avoidable ? ", avoidable" : "") << (reacting.hits > hits ? ", HIT" : "") << '\n';
+            for (const std::string &event : result.events)
+                std::cerr << "    " << event << '\n';
+            if (surprise)
+                std::cerr << "    " << surprise->time << " s: an obstacle appears " << surprise->ahead << " m ahead\n";
+        }
+    };
+
+    int run(const std::vector<std::string> &arguments)
+    {
+        po::options_description options("Options");
+        auto add = options.add_options();
+        add("drives", oneValue("N"), "number of drives (default 100)");
+        add("first", oneValue("N"), "number of the first drive, which is its seed (default 0)");
+        add("range", oneValue("M"), "range of the sensor in metres (default 20)");
+        add("rate", oneValue("HZ"), "frames per second (default 20)");
+        add("cell", oneValue("M"), "side of the map's cells in metres (default 0.1)");
+        add("closed", "treat ground that has not been seen as an obstacle when planning");
+        add("verbose", "print the events of each drive");
+        add("help", "print this text");
+        po::options_description all;
+        all.add(options).add_options()("scenario", po::value<std::vector<std::string>>());
+        const CommandLine line(arguments, all, po::positional_options_description().add("scenario", -1));
+        if (line.given("help"))
+        {
+            std::cout << "usage: perceived_drives SCENARIO... [options]\n\n"
+                         "Simulates drives in which the car knows what its sensor has seen, and obstacles appear.\n\n"
+                         "Examples, run at the root of the project:\n"
+                         "  perceived_drives benchmarks/scenarios/parallel.yaml --drives 20\n"
+                         "  perceived_drives benchmarks/scenarios/perpendicular.yaml --drives 1 --first 7 --verbose\n\n"
+                      << options;
+            return 0;
+        }
+        if (!line.given("scenario"))
+            throw Error("no scenario given (see --help)");
+        std::vector<Scenario> scenarios;
+        for (const std::string &file : line.texts("scenario"))
+        {
+            scenarios.push_back(readScenario(file));
+            if (scenarios.back().grid)
+                throw Error("scenario " + scenarios.back().name + ": obstacles appear in worlds of polygons only");
+        }
+        Study study;
+        study.parameters.maxReplans = MAX_REPLANS;
+        study.sensor.range = line.positive("range").value_or(study.sensor.range);
+        study.sensor.rate = line.positive("rate").value_or(study.sensor.rate);
+        study.map.cellSize = line.positive("cell").value_or(study.map.cellSize);
+        study.map.unseenIsOccupied = line.given("closed");
+        study.verbose = line.given("verbose");
+        const std::size_t drives = line.whole("drives", 1, 1000000).value_or(100);
+        const std::size_t first = line.whole("first", 0, 1000000000).value_or(0);
+        for (std::size_t i = first; i < first + drives; ++i)
+            study.drive(scenarios[i % scenarios.size()], i);
+        std::cout << "| car | drives | parked | hits | inevitable hits | stops | new motions | time, median | 90 % | "
+                     "check, ms | with a new motion, ms |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+                  << study.reacting.text() << study.stopping.text()
+                  << "\nDrives without a plan, even in the known world: " << study.withoutDrive << '\n';
+        return study.reacting.hits == 0 && study.reacting.rolling == 0 ? 0 : 1;
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    return parking::runProgram("perceived_drives", argc, argv, run);
+}
