@@ -176,7 +176,8 @@ namespace parking::python
         py::array_t<Result> askAll(const ScenarioHandle &self, const py::object &poses, const Ask &ask)
         {
             const Doubles rows = posesFrom(poses, "poses");
-            py::array_t<Result> answers(rows.shape(0));
+            // A vector as shape: pybind11 before 2.12 miscomputes the strides of a single number with NumPy 2.
+            py::array_t<Result> answers(std::vector<py::ssize_t>{rows.shape(0)});
             const double *data = rows.data();
             for (py::ssize_t i = 0; i < rows.size(); ++i)
                 if (!std::isfinite(data[i]))

@@ -50,6 +50,14 @@ def state(setup, pose):
     return result
 
 
+def test_answers_for_several_poses_are_those_for_each():
+    """This NumPy may be another version than that of the build."""
+    world = wall()
+    poses = numpy.array([[-10.0, -5.0, 0.0], [0.0, -5.0, 0.0], [0.0, 4.0, 0.0], [10.0, -5.0, 0.0], [0.0, 10.0, 0.0]])
+    assert list(world.is_free(poses)) == [True, False, True, True, False]
+    assert list(world.clearance(poses)) == [world.clearance(pose[None])[0] for pose in poses]
+
+
 @pytest.mark.parametrize('name', BUNDLED)
 def test_the_path_is_that_of_the_planner_in_cpp(name):
     setup = iao.simpleSetup(scenario(name))
