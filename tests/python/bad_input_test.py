@@ -54,7 +54,7 @@ WRONG = [
     (lambda: ia.Scenario.read(__file__), 'bad_input_test.py'),
     (lambda: ia.Scenario.read(7), 'path must be the path of a file, not int'),
     (lambda: ia.Vehicle(wheelbase=-1), 'wheelbase'),
-    (lambda: ia.Vehicle(wheelbas=2), "did you mean 'wheelbase'?"),
+    (lambda: ia.Vehicle(wheelbas=2), "did you mean 'wheelbase'"),
     (lambda: ia.Vehicle(width='broad'), "vehicle: width must be a number, not 'broad'"),
     (lambda: ia.Slot('diagonal', (0, 0, 0), 5, 2), "'diagonal'"),
     (lambda: ia.Slot('parallel', (0, 0), 5, 2), 'slot: pose must be three numbers'),

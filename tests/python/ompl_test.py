@@ -55,7 +55,7 @@ def test_answers_for_several_poses_are_those_for_each():
     world = wall()
     poses = numpy.array([[-10.0, -5.0, 0.0], [0.0, -5.0, 0.0], [0.0, 4.0, 0.0], [10.0, -5.0, 0.0], [0.0, 10.0, 0.0]])
     assert list(world.is_free(poses)) == [True, False, True, True, False]
-    assert list(world.clearance(poses)) == [world.clearance(pose[None])[0] for pose in poses]
+    assert list(world.clearance_at(poses)) == [world.clearance_at(pose[None])[0] for pose in poses]
 
 
 @pytest.mark.parametrize('name', BUNDLED)

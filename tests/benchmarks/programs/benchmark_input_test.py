@@ -36,7 +36,7 @@ class Configuration(InputTest):
         self.refused(benchmark='no key', parts=['set.cfg:7:', 'key = value'])
 
     def test_planners_and_parameters(self):
-        self.refused(planner='rrtstr=', parts=['set.cfg:10:', "did you mean 'RRTstar'", 'reeds_shepp'])
+        self.refused(planner='rrtstr=', parts=['set.cfg:10:', "did you mean 'RRTstar', 'PRMstar' or 'RRT'? (see --help)"])
         self.refused(planner='RRTstar=\nRRTstar.rnge=1', parts=['set.cfg:11:', "did you mean 'range'", 'goal_bias'])
         self.refused(planner='improved_astar.foo=1', parts=['set.cfg:10: planner improved_astar on angled45: ', "'foo'"])
         self.refused(planner='improved_astar.anytime=maybe', parts=['set.cfg:10:', 'anytime', "'maybe'"])

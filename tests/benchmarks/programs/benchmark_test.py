@@ -64,7 +64,7 @@ class OnATerminal(BenchmarkTest):
         self.assertIn('\033[1mangled45\033[0m', self.shown())
         self.assertNotIn('\033', self.shown(NO_COLOR='1'))
         self.assertNotIn('\033', self.shown(TERM='dumb'))
-        done = self.benchmark('set.cfg', '--output', 'out', '--quiet', '--no-report', '--planner', 'reeds_shepp')
+        done = self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'reeds_shepp')
         self.assertNotIn('\033', done.stdout)
 
     def test_the_report_is_the_last_line_and_tables_have_80_columns(self):

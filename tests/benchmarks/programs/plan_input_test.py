@@ -121,8 +121,8 @@ class Options(ProgramTest):
             self.refused_plan(bundled('parallel'), *arguments, parts=parts)
 
     def test_names(self):
-        for arguments, parts in ((['--planner', 'rrtstr'], ["did you mean 'RRTstar'", 'reeds_shepp']),
-                                 (['--set', 'xy_resolutoin=1'], ["did you mean 'xy_resolution'", 'open_list']),
+        for arguments, parts in ((['--planner', 'rrtstr'], ["did you mean 'RRTstar', 'PRMstar' or 'RRT'? (see --help)"]),
+                                 (['--set', 'xy_resolutoin=1'], ["did you mean 'xy_resolution', "]),
                                  (['--planner', 'RRTstar', '--set', 'rnge=1'], ["did you mean 'range'"]),
                                  (['--vehicle', 'vw_golf'], ["did you mean 'vw_golf8'"]),
                                  (['--space', 'se3'], ["did you mean 'se2'"]),

@@ -92,7 +92,7 @@ class QueriesTest(ProgramTest):
         self.write('old/index.json', '{}')
         for arguments, parts in ((('--seed', 1), ('--output',)),
                                  (('--output', 'old'), ('old', 'queries already')),
-                                 (('--output', 'x', '--kind', 'street'), ('street', 'streets', 'clutter')),
+                                 (('--output', 'x', '--kind', 'street'), ('street', "did you mean 'streets', ")),
                                  (('--output', 'x', '--margin', '-1'), ('--margin', '-1')),
                                  (('--output', 'x', '--margin', 'nan'), ('--margin', 'nan')),
                                  (('--output', 'x', '--margin', '6'), ('--margin', '6')),

@@ -1,20 +1,22 @@
 """The report in a real browser, headless Chromium: no errors, charts drawn, tables sorted, planners hidden, on a desk and a phone."""
-import html
 import os
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import made_results
 from made_results import MAKE_REPORT
 
-SKIPPED = 77
-BROWSER = next((found for found in map(shutil.which, ('chromium', 'chromium-browser', 'google-chrome')) if found), None)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'playground'))
 
-# What a visitor does; what is seen then goes into attributes of the page, which --dump-dom prints.
+from browser import PROGRAM, Browser  # noqa: E402
+
+SKIPPED = 77
+
+# What a visitor does; what is seen then goes into attributes of the page.
 VISIT = r'''<script>
 const note = (name, value) => document.body.setAttribute('data-seen-' + name, value);
 const whenDrawn = async element => {
@@ -87,8 +89,6 @@ const weakest = () => Math.min(...Array.from(document.querySelectorAll('button, 
     document.querySelector('.gallery .drawing').click();
     const large = document.getElementById('large');
     note('large', large.open && large.querySelector('svg').getBoundingClientRect().width > 300);
-    // Without a screen and with virtual time there are no frames.
-    window.requestAnimationFrame = callback => setTimeout(() => callback(performance.now()), 16);
     large.querySelector('.move').click();
     const places = new Set(), body = large.querySelector('.body');
     for (let k = 0; k < 50 && places.size < 3; ++k) {
@@ -103,13 +103,8 @@ const weakest = () => Math.min(...Array.from(document.querySelectorAll('button, 
 </script></body>'''
 
 
-def dump(file, *options):
-    with tempfile.TemporaryDirectory() as profile:
-        return subprocess.run(
-            [BROWSER, '--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
-             f'--user-data-dir={profile}', '--enable-logging=stderr', '--virtual-time-budget=20000',
-             *options, '--dump-dom', 'file://' + file],
-            capture_output=True, text=True, timeout=240, check=False)
+def value(browser, expression):
+    return browser.call('Runtime.evaluate', expression=expression, returnByValue=True)['result'].get('value')
 
 
 class BrowserTest(unittest.TestCase):
@@ -129,22 +124,27 @@ class BrowserTest(unittest.TestCase):
             stream.write(page.replace('</body>', VISIT))
 
     def test_a_visit(self):
-        for size, theme in (('1440,900', 'light'), ('1024,800', 'dark'), ('420,800', 'light'), ('390,800', 'dark')):
-            with self.subTest(size=size, theme=theme):
-                # Chromium takes the theme from this preference where there is no desktop.
-                done = dump(self.visit, f'--window-size={size}', *(['--blink-settings=preferredColorScheme=0'] if theme == 'dark' else []))
-                self.assertEqual([line for line in done.stderr.splitlines() if 'CONSOLE' in line], [])
-                seen = {name: html.unescape(value) for name, value in re.findall('data-seen-([a-z]+)="([^"]*)"', done.stdout)}
+        for width, dark in ((1440, False), (1024, True), (420, False), (390, True)):
+            with self.subTest(width=width, dark=dark):
+                browser = Browser(width, 800, dark)
+                self.addCleanup(browser.close)
+                browser.call('Emulation.setFocusEmulationEnabled', enabled=True)
+                browser.call('Page.navigate', url='file://' + self.visit)
+                end = time.monotonic() + 120
+                while value(browser, 'document.title') != 'visited' and time.monotonic() < end:
+                    time.sleep(0.1)
+                self.assertEqual(browser.console, [])
+                seen = value(browser, 'Object.fromEntries(Array.from(document.body.attributes, each => [each.name.slice(10), each.value]))')
                 self.assertEqual(seen, {
-                    'dark': str(theme == 'dark').lower(), 'early': 'undefined', 'folded': 'true', 'unfolded': 'true', 'curves': '3', 'axis': 'length, m', 'dots': '18',
+                    'dark': str(dark).lower(), 'early': 'undefined', 'folded': 'true', 'unfolded': 'true', 'curves': '3', 'axis': 'length, m', 'dots': '18',
                     'fastest': 'quick,slow,never', 'slowest': 'never,slow,quick', 'order': 'descending',
                     'tip': '0 of 8 runs; 95 % confidence interval 0 to 37 %', 'scrolls': 'true', 'contrast': 'true', 'hidden': 'true',
                     'left': '2', 'faded': 'false', 'pale': 'false', 'saved': 'success-0.svg,true,2', 'large': 'true',
-                    'moves': '3', 'wide': 'false'}, done.stderr[-2000:])
+                    'moves': '3', 'wide': 'false'})
 
 
 if __name__ == '__main__':
-    if BROWSER is None:
+    if PROGRAM is None:
         print('Skipped: Chromium is not installed (Debian package chromium)')
         sys.exit(SKIPPED)
     unittest.main()
