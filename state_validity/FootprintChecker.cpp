@@ -27,16 +27,16 @@ namespace parking
         // Circles with this clearance imply a separation above CONTACT_BAND, so all tiers agree on contact.
         constexpr double CLEAR = CORNER * FootprintChecker::CONTACT_BAND;
 
-        double circumradiusOf(const Vehicle &vehicle, double margin)
+        /** Largest distance of a point of the body from its centre. */
+        double circumradiusOf(const Body &body)
         {
-            return std::hypot(0.5 * vehicle.length() + margin, 0.5 * vehicle.width + margin);
-        }
-
-        double checked(const Vehicle &vehicle, double margin)
-        {
-            vehicle.validate();
-            Require("footprint checker").notNegative("safety margin", margin, "metres");
-            return margin;
+            if (body.pieces.empty())
+                return std::hypot(body.halfLength, body.halfWidth);
+            double radius = 0.0;
+            for (const BodyPiece &piece : body.pieces)
+                for (const BodyPiece::Side &side : piece.sides)
+                    radius = std::max(radius, side.corner.norm());
+            return radius;
         }
     }  // namespace
 
@@ -54,20 +54,22 @@ namespace parking
                                        ContactTestMaker contact, double fieldResolution)
       : obstacles_(std::move(obstacles)),
         vehicle_(vehicle),
-        margin_(checked(vehicle, margin)),
-        centreOffset_(vehicle.centreOffset()),
-        halfLength_(0.5 * vehicle.length() + margin),
-        halfWidth_(0.5 * vehicle.width + margin),
-        circumradius_(circumradiusOf(vehicle, margin) + CLEAR),
-        inradius_(std::min(halfLength_, halfWidth_) - ROUNDING),
+        margin_(margin),
+        body_(vehicle, margin),
+        centreOffset_(body_.centreOffset),
+        halfLength_(body_.halfLength),
+        halfWidth_(body_.halfWidth),
+        circumradius_(circumradiusOf(body_) + CLEAR),
+        inradius_(body_.depthAt(0.0) - ROUNDING),
         farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
                              halfWidth_)),
         field_(obstacles_, fieldResolution),
-        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH),
+        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH, body_.pieces),
         makeContactTest_(std::move(contact))
     {
         const Eigen::Vector2d world = obstacles_.bounds().size();
-        if (2.0 * halfWidth_ > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
+        const double width = 2.0 * (body_.pieces.empty() ? halfWidth_ : vehicle.bodyRadius(margin));
+        if (width > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
             throw Error("the car of " + std::to_string(vehicle.length()) + " m x " + std::to_string(vehicle.width) +
                         " m with a safety margin of " + std::to_string(margin) + " m does not fit into the world of " +
                         std::to_string(world.x()) + " m x " + std::to_string(world.y()) + " m");
@@ -76,15 +78,23 @@ namespace parking
         for (std::size_t i = 0; i < COVERING_CIRCLES; ++i)
         {
             const double offset = -halfLength_ + half * static_cast<double>(2 * i + 1);
-            covering_.push_back({offset, std::hypot(half, halfWidth_) + CLEAR});
+            covering_.push_back({offset, body_.reachBetween(offset - half, offset + half) + CLEAR});
             // Near the bumpers the nearest side of the body is the bumper.
-            inscribed_.push_back({offset, std::min(halfWidth_, halfLength_ - std::abs(offset)) - ROUNDING});
+            inscribed_.push_back({offset, body_.depthAt(offset) - ROUNDING});
         }
     }
 
     OrientedBox FootprintChecker::boxAt(const Pose &local) const
     {
         return bodyAt(local, centreOffset_, halfLength_, halfWidth_);
+    }
+
+    /** A point of the body that is far from its outline: the centre of a rectangle. */
+    Eigen::Vector2d FootprintChecker::innerPoint(const OrientedBox &box) const
+    {
+        const Eigen::Vector2d &inner = body_.inner;
+        return {box.x + box.cosine * inner.x() - box.sine * inner.y(),
+                box.y + box.sine * inner.x() + box.cosine * inner.y()};
     }
 
     /** Moves the box as the car moves along an arc.
@@ -110,7 +120,7 @@ namespace parking
             return true;
         if (!makeContactTest_)
             return false;
-        std::call_once(contactOnce_, [this] { contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_); });
+        std::call_once(contactOnce_, [this] { contactTest_ = makeContactTest_(obstacles_, body_); });
         return contactTest_(box);
     }
 
@@ -184,16 +194,17 @@ namespace parking
         return !touches(box);
     }
 
-    /** For a body that no outline crosses: does it lie inside of an obstacle? Then its centre does. */
+    /** For a body that no outline crosses: does it lie inside of an obstacle? Then its inner point does. */
     bool FootprintChecker::isInsideObstacle(const OrientedBox &box) const
     {
-        if (field_.isOutside(box.x, box.y))
+        const Eigen::Vector2d inner = innerPoint(box);
+        if (field_.isOutside(inner.x(), inner.y()))
             return false;
-        if (field_.isInside(box.x, box.y))
+        if (field_.isInside(inner.x(), inner.y()))
             return true;
-        // An outline touches the centre's cell; that can be only when cells are as large as the body. The centre itself
+        // An outline touches the point's cell; that can be only when cells are as large as the body. The point itself
         // is far from all outlines.
-        return obstacles_.covers(box.x, box.y);
+        return obstacles_.covers(inner.x(), inner.y());
     }
 
     double FootprintChecker::clearance(const Pose &pose) const
