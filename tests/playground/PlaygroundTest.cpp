@@ -30,8 +30,11 @@ namespace
     std::vector<double> numbersOf(const Scenario &scenario)
     {
         const Vehicle &car = scenario.vehicle;
-        std::vector<double> numbers{car.wheelbase,        car.frontOverhang, car.rearOverhang,    car.width,
-                                    car.maxSteeringAngle, car.maxSpeed,      car.maxAcceleration, car.maxSteeringRate};
+        std::vector<double> numbers{car.wheelbase,       car.frontOverhang,    car.rearOverhang,
+                                    car.width,           car.maxSteeringAngle, car.maxSpeed,
+                                    car.maxAcceleration, car.maxSteeringRate,  static_cast<double>(car.outline.size())};
+        for (const Eigen::Vector2d &corner : car.outline)
+            numbers.insert(numbers.end(), {corner.x(), corner.y()});
         addPose(numbers, scenario.toWorld(scenario.start));
         if (scenario.slot)
         {
@@ -192,7 +195,7 @@ namespace
         refused(playground_trajectory(1.0), "there is no plan");
         refused(setScene(std::vector<double>(good.begin(), good.end() - 1)), "the scene ends after");
         refused(setScene(changed(0, nan)), "wheelbase");
-        refused(setScene(changed(8, nan)), "start: x is nan");
+        refused(setScene(changed(9, nan)), "start: x is nan");
         refused(setScene(changed(12, 7.0)), "must be a whole number from 0 to 2");
         std::vector<double> longer = good;
         longer.push_back(1.0);
