@@ -201,7 +201,7 @@ TEST(Vehicle, OutlineDeterminesTheLengthsOfItsBoundingRectangle)
     EXPECT_DOUBLE_EQ(lift.rearOverhang, 1.6);
     EXPECT_NEAR(lift.frontOverhang, 0.4, 1e-12);
     EXPECT_DOUBLE_EQ(lift.width, 1.1);
-    EXPECT_DOUBLE_EQ(lift.inscribedRadius(), std::hypot(0.4, 0.2));
+    EXPECT_DOUBLE_EQ(lift.inscribedRadius(), 0.4);
 }
 
 TEST(Vehicle, CirclesOfTheOutlineAreWithinIt)
