@@ -52,44 +52,51 @@ namespace parking
         {
             const std::size_t next = i + 1 < count ? i + 1 : 0;
             const Eigen::Vector2d &normal = piece.sides[i].normal;
-            const Corner &a = all[i], &b = all[next];
-            Part part{};
-            part.nx = sweep.direction * normal.x();
-            part.ny = across * normal.y();
-            if (straight_)
-            {
-                if (part.nx <= 0.0)
-                    continue;
-                leads[i] = leads[next] = true;
-                const Corner &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
-                part.low = low.y;
-                part.high = high.y;
-                part.x = low.x;
-                part.slope = high.y > low.y ? (high.x - low.x) / (high.y - low.y) : 0.0;
-            }
-            else
-            {
-                // Positions along the side from the foot of the centre, positive in the direction of the turn.
-                const double alongA = part.nx * a.y - part.ny * a.x, alongB = part.nx * b.y - part.ny * b.x;
-                leads[i] = leads[i] || alongA < 0.0;
-                leads[next] = leads[next] || alongB < 0.0;
-                if (std::min(alongA, alongB) >= 0.0)
-                    continue;
-                part.distance = part.nx * a.x + part.ny * a.y;
-                part.high = alongA < alongB ? a.square : b.square;
-                part.low = std::max(alongA, alongB) >= 0.0 ? part.distance * part.distance
-                           : alongA < alongB               ? b.square
-                                                           : a.square;
-            }
-            nearest_ = std::min(nearest_, part.low);
-            farthest_ = std::max(farthest_, part.high);
-            parts_[partCount_++] = part;
+            addSide({sweep.direction * normal.x(), across * normal.y()}, all[i], all[next], leads[i], leads[next]);
         }
         for (std::size_t i = 0; i < count; ++i)
             if (leads[i])
                 corners_[cornerCount_++] =
                     straight_ ? all[i]
                               : Corner{all[i].x * dx_ + all[i].y * lx_, all[i].x * dy_ + all[i].y * ly_, all[i].square};
+    }
+
+    /** Adds the leading part of the side from \e a to \e b, if there is one, and notes which of the two are its ends.
+     */
+    void PieceFront::addSide(const Eigen::Vector2d &normal, const Corner &a, const Corner &b, bool &leadsA,
+                             bool &leadsB)
+    {
+        Part part{};
+        part.nx = normal.x();
+        part.ny = normal.y();
+        if (straight_)
+        {
+            if (part.nx <= 0.0)
+                return;
+            leadsA = leadsB = true;
+            const Corner &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
+            part.low = low.y;
+            part.high = high.y;
+            part.x = low.x;
+            part.slope = high.y > low.y ? (high.x - low.x) / (high.y - low.y) : 0.0;
+        }
+        else
+        {
+            // Positions along the side from the foot of the centre, positive in the direction of the turn.
+            const double alongA = part.nx * a.y - part.ny * a.x, alongB = part.nx * b.y - part.ny * b.x;
+            leadsA = leadsA || alongA < 0.0;
+            leadsB = leadsB || alongB < 0.0;
+            if (std::min(alongA, alongB) >= 0.0)
+                return;
+            part.distance = part.nx * a.x + part.ny * a.y;
+            part.high = alongA < alongB ? a.square : b.square;
+            part.low = std::max(alongA, alongB) >= 0.0 ? part.distance * part.distance
+                       : alongA < alongB               ? b.square
+                                                       : a.square;
+        }
+        nearest_ = std::min(nearest_, part.low);
+        farthest_ = std::max(farthest_, part.high);
+        parts_[partCount_++] = part;
     }
 
     inline void PieceFront::noteTurn(double sineTimesSquare, double cosineTimesSquare, double square)

@@ -58,6 +58,7 @@ namespace parking
             double square;  // of the distance from the centre
         };
 
+        void addSide(const Eigen::Vector2d &normal, const Corner &a, const Corner &b, bool &leadsA, bool &leadsB);
         void meetPoint(double ux, double uy);
         void noteTurn(double sineTimesSquare, double cosineTimesSquare, double square);
         void noteDistance(double distance);
