@@ -154,30 +154,7 @@ namespace parking
         }
 
         /** The smallest separation of the pieces, given in the frame of the box, and the eight edges. */
-        double separation(const OrientedBox &box, const std::vector<BodyPiece> &pieces) const
-        {
-            const double c = box.cosine, s = box.sine;
-            const Eight dax = ax - box.x, day = ay - box.y, dbx = bx - box.x, dby = by - box.y;
-            const Eight lax = c * dax + s * day, lay = c * day - s * dax;
-            const Eight lbx = c * dbx + s * dby, lby = c * dby - s * dbx;
-            const Eight lnx = c * nx + s * ny, lny = c * ny - s * nx;
-            const Eight height = lnx * lax + lny * lay;
-            Eight smallest = Eight::Constant(HUGE_VAL);
-            for (const BodyPiece &piece : pieces)
-            {
-                Eight gap = Eight::Constant(-HUGE_VAL), low = Eight::Constant(HUGE_VAL), high = gap;
-                for (const BodyPiece::Side &side : piece.sides)
-                {
-                    const double x = side.normal.x(), y = side.normal.y();
-                    gap = gap.max((x * lax + y * lay).min(x * lbx + y * lby) - side.offset);
-                    const Eight reach = lnx * side.corner.x() + lny * side.corner.y();
-                    low = low.min(reach);
-                    high = high.max(reach);
-                }
-                smallest = smallest.min(gap.max(height - high).max(low - height));
-            }
-            return smallest.minCoeff();
-        }
+        double separation(const OrientedBox &box, const std::vector<BodyPiece> &pieces) const;
 
         /** The smallest squared distance between the point and the eight edges. */
         double squaredDistance(double px, double py) const
@@ -187,6 +164,32 @@ namespace parking
             return ((ux - share * dx).square() + (uy - share * dy).square()).minCoeff();
         }
     };
+
+    // Not inline, so that the loops over blocks stay short for boxes.
+    double EdgeIndex::Block::separation(const OrientedBox &box, const std::vector<BodyPiece> &pieces) const
+    {
+        const double c = box.cosine, s = box.sine;
+        const Eight dax = ax - box.x, day = ay - box.y, dbx = bx - box.x, dby = by - box.y;
+        const Eight lax = c * dax + s * day, lay = c * day - s * dax;
+        const Eight lbx = c * dbx + s * dby, lby = c * dby - s * dbx;
+        const Eight lnx = c * nx + s * ny, lny = c * ny - s * nx;
+        const Eight height = lnx * lax + lny * lay;
+        Eight smallest = Eight::Constant(HUGE_VAL);
+        for (const BodyPiece &piece : pieces)
+        {
+            Eight gap = Eight::Constant(-HUGE_VAL), low = Eight::Constant(HUGE_VAL), high = gap;
+            for (const BodyPiece::Side &side : piece.sides)
+            {
+                const double x = side.normal.x(), y = side.normal.y();
+                gap = gap.max((x * lax + y * lay).min(x * lbx + y * lby) - side.offset);
+                const Eight reach = lnx * side.corner.x() + lny * side.corner.y();
+                low = low.min(reach);
+                high = high.max(reach);
+            }
+            smallest = smallest.min(gap.max(height - high).max(low - height));
+        }
+        return smallest.minCoeff();
+    }
 
     /** A block and its axis-parallel bounding box: centre and half lengths. */
     struct EdgeIndex::BlockInBox
