@@ -164,12 +164,16 @@ namespace parking
         constexpr double SLACK = 1e-11;
         const double a = nx * awy - ny * awx, b = nx * bwy - ny * bwx;
         const double from = (a < b ? a : b) - SLACK, to = (a < b ? b : a) + SLACK;
+        // Most corners pass the edge at another distance from the centre, which the squares tell without a root.
+        const double most = std::max(from * from, to * to);
+        const double least = from <= 0.0 && to >= 0.0 ? 0.0 : std::min(from * from, to * to);
         for (std::size_t i = 0; i < cornerCount_; ++i)
         {
             const Corner &corner = corners_[i];
-            if (square > corner.square)
+            const double squareOfHalf = corner.square - square;
+            if (squareOfHalf < least || squareOfHalf > most)
                 continue;
-            const double half = std::sqrt(corner.square - square);
+            const double half = std::sqrt(squareOfHalf);
             const double across = corner.x * nx + corner.y * ny, along = corner.y * nx - corner.x * ny;
             if (half >= from && half <= to)
                 noteTurn(turning_ * (half * across - distance * along), distance * across + half * along,
