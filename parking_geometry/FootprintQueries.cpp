@@ -76,11 +76,15 @@ namespace parking
 
     bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path)
     {
+        return isPathFree(queries, farthestCorner(vehicle), path);
+    }
+
+    bool isPathFree(const FootprintQueries &queries, double reach, const Path &path)
+    {
         if (queries.isPathFree)
             return queries.isPathFree(path);
         if (!queries.clearance && !queries.isFree)
             return true;
-        const double reach = farthestCorner(vehicle);
         Pose pose = path.start;
         double clearance = PieceCheck::clearanceAt(queries, pose);
         for (const PathPiece &piece : path.pieces)

@@ -34,4 +34,9 @@ namespace parking
           below 5 mm are decided by their ends.
         - With isFree alone, it checks the ends and poses at most 10 cm apart. */
     bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
+
+    /** \brief Whether every motion of a body along \e path is free.
+
+        \param reach distance in metres of the farthest point of the body from the rear axle's midpoint */
+    bool isPathFree(const FootprintQueries &queries, double reach, const Path &path);
 }  // namespace parking

@@ -1,6 +1,9 @@
 #include "parking_geometry/Polygon.h"
 
+#include "parking_geometry/Box.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace parking
@@ -70,5 +73,61 @@ namespace parking
                 inside = !inside;
         }
         return inside;
+    }
+
+    double distanceToSegment(const Eigen::Vector2d &point, const Eigen::Vector2d &from, const Eigen::Vector2d &to)
+    {
+        const Eigen::Vector2d along = to - from;
+        const double square = along.squaredNorm();
+        const double share = square > 0.0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0.0;
+        return (point - from - share * along).norm();
+    }
+
+    double depthWithin(const Polygon &polygon, const Eigen::Vector2d &point)
+    {
+        double nearest = HUGE_VAL;
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+            nearest = std::min(nearest, distanceToSegment(point, polygon[i], polygon[(i + 1) % polygon.size()]));
+        return contains(polygon, point) ? nearest : -nearest;
+    }
+
+    Eigen::Vector2d deepestPoint(const Polygon &polygon)
+    {
+        constexpr double PLACES = 24.0;   // of the first search, along either axis
+        constexpr double FINEST = 1e-12;  // last step as a share of the first
+        Box box{polygon.front(), polygon.front()};
+        for (const Eigen::Vector2d &corner : polygon)
+            box.include(corner);
+        // Ears of the outline are inside even of polygons that are narrower than a step.
+        Eigen::Vector2d deepest = box.min;
+        double depth = -HUGE_VAL;
+        const auto consider = [&](const Eigen::Vector2d &point)
+        {
+            const double there = depthWithin(polygon, point);
+            if (there <= depth)
+                return false;
+            depth = there;
+            deepest = point;
+            return true;
+        };
+        const std::size_t count = polygon.size();
+        for (std::size_t i = 0; i < count; ++i)
+            consider((polygon[i] + polygon[(i + 1) % count] + polygon[(i + 2) % count]) / 3.0);
+        const Eigen::Vector2d first = box.size() / PLACES;
+        for (double column = 0.5; column < PLACES; ++column)
+            for (double row = 0.5; row < PLACES; ++row)
+                consider(box.min + Eigen::Vector2d(column * first.x(), row * first.y()));
+        // Pattern search: eight neighbours, then half the step.
+        for (double scale = 0.5; scale > FINEST;)
+        {
+            const Eigen::Vector2d from = deepest, step = scale * first;
+            bool deeper = false;
+            for (const double dx : {-1.0, 0.0, 1.0})
+                for (const double dy : {-1.0, 0.0, 1.0})
+                    deeper |= consider(from + Eigen::Vector2d(dx * step.x(), dy * step.y()));
+            if (!deeper)
+                scale *= 0.5;
+        }
+        return deepest;
     }
 }  // namespace parking

@@ -33,4 +33,14 @@ namespace parking
     /** \brief Whether \e point lies inside \e polygon, by the crossing number. The result is undefined exactly on the
         outline. */
     bool contains(const Polygon &polygon, const Eigen::Vector2d &point);
+
+    /** \brief Distance in metres between \e point and the outline of the polygon, positive inside. */
+    double depthWithin(const Polygon &polygon, const Eigen::Vector2d &point);
+
+    /** \brief A point within the polygon whose depth is locally largest, usually the centre of the largest circle in
+        it. The polygon must have an area. */
+    Eigen::Vector2d deepestPoint(const Polygon &polygon);
+
+    /** \brief Distance in metres between a point and a segment. */
+    double distanceToSegment(const Eigen::Vector2d &point, const Eigen::Vector2d &from, const Eigen::Vector2d &to);
 }  // namespace parking

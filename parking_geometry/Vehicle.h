@@ -1,9 +1,9 @@
 #pragma once
 
+#include "parking_geometry/Polygon.h"
 #include "parking_geometry/Pose.h"
 
-#include <algorithm>
-#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,7 +11,11 @@
 
 namespace parking
 {
-    /** \brief A car: its rectangular body relative to the rear axle and the limits of its steering and drive.
+    /** \brief A car: its body relative to the rear axle and the limits of its steering and drive.
+
+        The body is a rectangle or, with an outline, any simple polygon. The frame of the car has its origin in the
+        middle of the fixed axle, and x points to the steered axle. If a vehicle steers at the rear, its outline is
+        given in this frame too: the forks of a forklift lie at negative x, and driving with the forks ahead is reverse.
 
         Units are metres, radians and seconds. The defaults describe the car of the Trajectory Planning Competition of
         Automated Parking (TPCAP). */
@@ -19,6 +23,7 @@ namespace parking
     {
         static constexpr double MIN_LIMIT = 0.02;   ///< lowest maximum of speed, acceleration and steering rate, SI
         static constexpr double MAX_LIMIT = 100.0;  ///< highest maximum of speed, acceleration and steering rate, SI
+        static constexpr std::size_t MAX_CORNERS = 128;  ///< highest number of corners of an outline
 
         std::string name{"tpcap"};      ///< name in results, from vehicleNames() or chosen by the user
         double wheelbase{2.8};          ///< distance from the rear to the front axle, metres
@@ -29,6 +34,17 @@ namespace parking
         double maxSpeed{2.5};           ///< largest speed in either direction, m/s
         double maxAcceleration{1.0};    ///< largest acceleration and deceleration, m/s^2
         double maxSteeringRate{0.5};    ///< largest rate of the steering angle, rad/s
+        /** Corners of the body in the frame of the car, counter-clockwise; empty for the rectangle that overhangs and
+            width describe. The rear axle may lie anywhere. Set by setOutline(). */
+        Polygon outline;
+
+        /** \brief Sets the outline, whose corners may have either order, and the overhangs and the width that follow
+            from it.
+
+            They become those of the bounding rectangle: the smallest rectangle that contains the outline and both axles
+            and is symmetric about the car's axis. Slots, manoeuvres and the paper's rules use this rectangle. The
+            wheelbase must be set before. validate() checks the outline. */
+        void setOutline(const Polygon &corners);
 
         /** \brief Length of the body from bumper to bumper, metres. */
         double length() const
@@ -43,21 +59,15 @@ namespace parking
         }
 
         /** \brief Radius of the largest circle about the rear axle's midpoint within the body, enlarged by \e margin
-            metres on each side. No obstacle can be nearer to this point. */
-        double inscribedRadius(double margin = 0.0) const
-        {
-            return margin + std::min({0.5 * width, rearOverhang, wheelbase + frontOverhang});
-        }
+            metres on each side; 0 if this point lies outside. No obstacle can be nearer to it. */
+        double inscribedRadius(double margin = 0.0) const;
 
         /** \brief Radius of the largest circle within the body, enlarged by \e margin metres on each side. Every gap
-            that the car passes is at least twice as wide. */
-        double bodyRadius(double margin = 0.0) const
-        {
-            return margin + 0.5 * std::min(width, length());
-        }
+            that the car passes is at least twice as wide. For an outline it may be that of a smaller circle. */
+        double bodyRadius(double margin = 0.0) const;
 
-        /** \brief Width of the annulus that the body, enlarged by \e margin metres on each side, sweeps at full
-            lock. */
+        /** \brief Width of the annulus that the bounding rectangle, enlarged by \e margin metres on each side, sweeps
+            at full lock. */
         double turningLane(double margin = 0.0) const;
 
         /** \brief Smallest turning radius of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle), metres. */
@@ -69,13 +79,18 @@ namespace parking
         /** \brief Steering angle for a curvature, radians. */
         double steeringAngle(double curvature) const;
 
-        /** \brief Corners of the body at \e pose, counter-clockwise: rear right, front right, front left, rear left. */
-        std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
+        /** \brief Corners of the body at \e pose, counter-clockwise: those of the outline, or of the rectangle: rear
+            right, front right, front left, rear left. */
+        Polygon footprint(const Pose &pose) const;
 
         /** \brief Throws parking::Error naming the first field that is not finite or out of range.
 
             Lengths may be up to 50 m, wheelbase and width must be at least 1 cm. The turning radius must be 1 cm to 1
-            km. Speed, acceleration and steering rate must be from MIN_LIMIT to MAX_LIMIT. */
+            km. Speed, acceleration and steering rate must be from MIN_LIMIT to MAX_LIMIT.
+
+            An outline must be a simple polygon of 3 to MAX_CORNERS corners within 50 m of the rear axle. No corner may
+            be nearer than 1 mm to a side to which it does not belong. Overhangs and width must be those of
+            setOutline(). */
         void validate() const;
     };
 

@@ -1,8 +1,12 @@
 #include "state_validity/EdgeIndex.h"
 
+#include "state_validity/sweeps/PieceFront.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace parking
 {
@@ -56,6 +60,29 @@ namespace parking
                 for (const double cy : {-hy, hy})
                     square = std::min(square, squaredDistanceToSegment(cx, cy, ax, ay, bx, by));
             return std::sqrt(square);
+        }
+
+        /** The distance between a piece of a body and an edge with this unit normal, both in the frame of the body; 0
+            when they cross. */
+        double distanceTo(const BodyPiece &piece, const Edge &edge, const Eigen::Vector2d &normal)
+        {
+            const double height = normal.dot(edge.from);
+            double gap = -HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL, square = HUGE_VAL;
+            for (std::size_t i = 0; i < piece.sides.size(); ++i)
+            {
+                const BodyPiece::Side &side = piece.sides[i];
+                const Eigen::Vector2d &a = side.corner, b = piece.corner(i + 1, 0.0);
+                gap = std::max(gap, std::min(side.normal.dot(edge.from), side.normal.dot(edge.to)) - side.offset);
+                low = std::min(low, normal.dot(a));
+                high = std::max(high, normal.dot(a));
+                square = std::min(
+                    {square,
+                     squaredDistanceToSegment(a.x(), a.y(), edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y()),
+                     squaredDistanceToSegment(edge.from.x(), edge.from.y(), a.x(), a.y(), b.x(), b.y()),
+                     squaredDistanceToSegment(edge.to.x(), edge.to.y(), a.x(), a.y(), b.x(), b.y())});
+            }
+            // If they do not intersect, a corner of one has the smallest distance from the other.
+            return std::max({gap, height - high, low - height}) <= 0.0 ? 0.0 : std::sqrt(square);
         }
 
         std::size_t clampTo(double value, std::size_t count)
@@ -128,6 +155,9 @@ namespace parking
             return gapX.max(gapY).max(gapN).minCoeff();
         }
 
+        /** The smallest separation of the pieces, given in the frame of the box, and the eight edges. */
+        double separation(const OrientedBox &box, const std::vector<BodyPiece> &pieces) const;
+
         /** The smallest squared distance between the point and the eight edges. */
         double squaredDistance(double px, double py) const
         {
@@ -136,6 +166,32 @@ namespace parking
             return ((ux - share * dx).square() + (uy - share * dy).square()).minCoeff();
         }
     };
+
+    // Not inline, so that the loops over blocks stay short for boxes.
+    double EdgeIndex::Block::separation(const OrientedBox &box, const std::vector<BodyPiece> &pieces) const
+    {
+        const double c = box.cosine, s = box.sine;
+        const Eight dax = ax - box.x, day = ay - box.y, dbx = bx - box.x, dby = by - box.y;
+        const Eight lax = c * dax + s * day, lay = c * day - s * dax;
+        const Eight lbx = c * dbx + s * dby, lby = c * dby - s * dbx;
+        const Eight lnx = c * nx + s * ny, lny = c * ny - s * nx;
+        const Eight height = lnx * lax + lny * lay;
+        Eight smallest = Eight::Constant(HUGE_VAL);
+        for (const BodyPiece &piece : pieces)
+        {
+            Eight gap = Eight::Constant(-HUGE_VAL), low = Eight::Constant(HUGE_VAL), high = gap;
+            for (const BodyPiece::Side &side : piece.sides)
+            {
+                const double x = side.normal.x(), y = side.normal.y();
+                gap = gap.max((x * lax + y * lay).min(x * lbx + y * lby) - side.offset);
+                const Eight reach = lnx * side.corner.x() + lny * side.corner.y();
+                low = low.min(reach);
+                high = high.max(reach);
+            }
+            smallest = smallest.min(gap.max(height - high).max(low - height));
+        }
+        return smallest.minCoeff();
+    }
 
     /** A block and its axis-parallel bounding box: centre and half lengths. */
     struct EdgeIndex::BlockInBox
@@ -161,15 +217,17 @@ namespace parking
         std::vector<BlockInBox> boxes;  // of the blocks
     };
 
-    EdgeIndex::EdgeIndex(const ObstacleSet &obstacles, double reach)
-      : EdgeIndex(obstacles.cellSize() > 0.0 ? std::vector<Edge>() : obstacles.edges(), obstacles.bounds(), reach)
+    EdgeIndex::EdgeIndex(const ObstacleSet &obstacles, double reach, std::vector<BodyPiece> pieces)
+      : EdgeIndex(obstacles.cellSize() > 0.0 ? std::vector<Edge>() : obstacles.edges(), obstacles.bounds(), reach,
+                  std::move(pieces))
     {
         if (obstacles.cellSize() > 0.0)
             grid_ = &obstacles;
     }
 
-    EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach)
+    EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach, std::vector<BodyPiece> pieces)
       : reach_(reach),
+        pieces_(std::move(pieces)),
         origin_(bounds.min)
     {
         const Eigen::Vector2d size = bounds.size();
@@ -388,19 +446,40 @@ namespace parking
         return once(buckets_[row * columns_ + column], [this, column, row] { return gather(column, row); });
     }
 
+    /** The separation of the body from a block; any value of at least \e ignored if that of its box is so large. */
+    inline double EdgeIndex::separationOf(const Block &block, const OrientedBox &box, double ignored) const
+    {
+        const double ofBox = block.separation(box);
+        return pieces_.empty() || ofBox >= ignored ? ofBox : block.separation(box, pieces_);
+    }
+
+    /** The distance between the body and an edge. */
+    double EdgeIndex::distanceOf(const OrientedBox &box, const Edge &edge, const Eigen::Vector2d &normal) const
+    {
+        if (pieces_.empty())
+            return distanceTo(box, edge, normal);
+        const Eigen::Vector2d turned(box.cosine * normal.x() + box.sine * normal.y(),
+                                     box.cosine * normal.y() - box.sine * normal.x());
+        const Edge local{box.toFrame(edge.from), box.toFrame(edge.to)};
+        double smallest = HUGE_VAL;
+        for (const BodyPiece &piece : pieces_)
+            smallest = std::min(smallest, distanceTo(piece, local, turned));
+        return smallest;
+    }
+
     double EdgeIndex::separation(const OrientedBox &box, double ignored) const
     {
         double smallest = ignored;
         for (const BlockInBox &each : near(box.x, box.y))
             if (each.gap(box) < smallest)
-                smallest = std::min(smallest, each.block->separation(box));
+                smallest = std::min(smallest, separationOf(*each.block, box, smallest));
         return smallest;
     }
 
     bool EdgeIndex::isSeparate(const OrientedBox &box, double minSeparation) const
     {
         for (const BlockInBox &each : near(box.x, box.y))
-            if (each.gap(box) < minSeparation && each.block->separation(box) < minSeparation)
+            if (each.gap(box) < minSeparation && separationOf(*each.block, box, minSeparation) < minSeparation)
                 return false;
         return true;
     }
@@ -411,7 +490,7 @@ namespace parking
         for (const BlockInBox &each : near(box.x, box.y))
             if (each.gap(box) <= band)
             {
-                smallest = std::min(smallest, each.block->separation(box));
+                smallest = std::min(smallest, separationOf(*each.block, box, band));
                 if (smallest < -band)
                     return -1;
             }
@@ -421,6 +500,8 @@ namespace parking
     double EdgeIndex::firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
                                    double middleSine) const
     {
+        if (!pieces_.empty())
+            return firstContactOfPieces(box, sweep, middleCosine, middleSine);
         const List &list = near(box.x, box.y);
         if (SweepFront::applies(sweep))
         {
@@ -477,6 +558,68 @@ namespace parking
         return first;
     }
 
+    /** firstContact() of the pieces, one after another. */
+    double EdgeIndex::firstContactOfPieces(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
+                                           double middleSine) const
+    {
+        // No enlarged corner lies farther out than this, see BodyPiece.
+        const double more = sweep.halfLength - box.halfLength, cornerReach = 1.5 * more;
+        BoxSweep around = sweep;
+        around.halfLength = box.halfLength + cornerReach;
+        around.halfWidth = box.halfWidth + cornerReach;
+        const double farthest = std::hypot(std::abs(sweep.axle) + around.halfLength, around.halfWidth);
+        const double moved = (sweep.length + OVERRUN) * (1.0 + std::abs(sweep.curvature) * farthest) + ROUNDING;
+        OrientedBox enlarged = box;
+        enlarged.halfLength = around.halfLength + moved;
+        enlarged.halfWidth = around.halfWidth + moved;
+        std::optional<SweepFront> area;
+        if (SweepFront::applies(around))
+            area.emplace(box, around, middleCosine, middleSine);
+        const auto isNear = [&](const BlockInBox &each)
+        {
+            return area ? area->mayMeet(each.x, each.y, each.ex, each.ey) : each.gap(enlarged) <= 0.0;
+        };
+        const double sineOfTurn = 2.0 * middleSine * middleCosine;
+        const double c = box.cosine, s = box.sine;
+        const bool isFast = PieceFront::applies(sweep);
+        BoxSweep left = sweep;
+        left.length += isFast ? 0.0 : OVERRUN;
+        double first = HUGE_VAL;
+        for (const BodyPiece &piece : pieces_)
+        {
+            std::optional<PieceFront> front;
+            if (isFast)
+                front.emplace(piece, more, box, sweep, sineOfTurn);
+            for (const BlockInBox &each : near(box.x, box.y))
+            {
+                if (!isNear(each))
+                    continue;
+                const Block &block = *each.block;
+                const Eight gaps = area ? area->gap(block.ax, block.ay, block.bx, block.by) : Eight::Zero();
+                for (std::size_t i = 0; i < block.edges; ++i)
+                {
+                    const auto k = static_cast<Eigen::Index>(i);
+                    if (gaps[k] > 0.0)
+                        continue;
+                    if (front)
+                    {
+                        front->meet(block.ax[k], block.ay[k], block.bx[k], block.by[k], block.nx[k], block.ny[k]);
+                        continue;
+                    }
+                    const double ax = block.ax[k] - box.x, ay = block.ay[k] - box.y;
+                    const double bx = block.bx[k] - box.x, by = block.by[k] - box.y;
+                    left.length =
+                        std::min(left.length, parking::firstContact(left, piece, more, c * ax + s * ay, c * ay - s * ax,
+                                                                    c * bx + s * by, c * by - s * bx));
+                }
+            }
+            first = std::min(first, front                                  ? front->contact()
+                                    : left.length < sweep.length + OVERRUN ? left.length
+                                                                           : HUGE_VAL);
+        }
+        return first;
+    }
+
     double EdgeIndex::distance(double x, double y) const
     {
         double smallest = HUGE_VAL;  // squared
@@ -486,7 +629,7 @@ namespace parking
         return std::sqrt(smallest);
     }
 
-    double EdgeIndex::nearest(const List &list, const OrientedBox &box, double smallest)
+    double EdgeIndex::nearest(const List &list, const OrientedBox &box, double smallest) const
     {
         for (const BlockInBox &each : list)
         {
@@ -496,7 +639,7 @@ namespace parking
             for (std::size_t i = 0; i < block.edges; ++i)
             {
                 const auto k = static_cast<Eigen::Index>(i);
-                smallest = std::min(smallest, distanceTo(box, {{block.ax[k], block.ay[k]}, {block.bx[k], block.by[k]}},
+                smallest = std::min(smallest, distanceOf(box, {{block.ax[k], block.ay[k]}, {block.bx[k], block.by[k]}},
                                                          {block.nx[k], block.ny[k]}));
             }
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "parking_geometry/OrientedBox.h"
+#include "state_validity/Body.h"
 #include "state_validity/ObstacleSet.h"
 #include "state_validity/sweeps/SweepFront.h"
 #include "state_validity/sweeps/SweptBox.h"
@@ -15,6 +16,9 @@ namespace parking
 {
     /** \brief A spatial index of the edges of all obstacles, with distances between them and an oriented box.
 
+        If the index has pieces of a body, they replace the box: it only bounds them. Their separation from an edge is
+        the smallest of all pieces.
+
         The index divides the world into square cells and cuts edges at the borders. Adjacent edges of a cell form
         blocks of eight with a bounding box, so a query skips most blocks. Smaller squares, the buckets, list all blocks
         within \e reach of any of their points, so a query requires only one list.
@@ -28,11 +32,13 @@ namespace parking
         /** \brief An index of \e edges.
 
             \param bounds area of the world
-            \param reach largest distance in metres from the query point to a relevant edge, positive */
-        EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
+            \param reach largest distance in metres from the query point to a relevant edge, positive
+            \param pieces the body in the frame of the box of all queries, which must contain it; none for the box
+            itself */
+        EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach, std::vector<BodyPiece> pieces = {});
 
         /** \brief An index of the edges of \e obstacles, which must outlive it. */
-        EdgeIndex(const ObstacleSet &obstacles, double reach);
+        EdgeIndex(const ObstacleSet &obstacles, double reach, std::vector<BodyPiece> pieces = {});
 
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
@@ -47,6 +53,12 @@ namespace parking
         double reach() const
         {
             return reach_;
+        }
+
+        /** \brief Whether pieces of a body replace the box. */
+        bool hasPieces() const
+        {
+            return !pieces_.empty();
         }
 
         /** \brief Smallest separation in metres of the box and the edges within reach of its centre; infinite without
@@ -79,7 +91,8 @@ namespace parking
 
         /** \brief Metres along an arc until the box first touches an edge; infinite if it touches none.
 
-            \param sweep the motion; its half lengths replace those of \e box
+            \param sweep the motion; its half lengths replace those of \e box. Pieces are enlarged by the difference
+            of the half lengths.
             \param middleCosine, middleSine cosine and sine of half the angle of the turn, not negative
 
             The sweep must stay within reach() of the centre of \e box because edges farther away may be missed. The box
@@ -95,7 +108,11 @@ namespace parking
 
         template <class T, class Make>
         static const T &once(std::atomic<T *> &place, const Make &make);
-        static double nearest(const List &list, const OrientedBox &box, double smallest);
+        double separationOf(const Block &block, const OrientedBox &box, double ignored) const;
+        double distanceOf(const OrientedBox &box, const Edge &edge, const Eigen::Vector2d &normal) const;
+        double firstContactOfPieces(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
+                                    double middleSine) const;
+        double nearest(const List &list, const OrientedBox &box, double smallest) const;
         const List &near(double x, double y) const;
         const Cell &cellAt(std::size_t column, std::size_t row) const;
         std::unique_ptr<List> gather(std::size_t column, std::size_t row) const;
@@ -103,6 +120,7 @@ namespace parking
 
         const ObstacleSet *grid_{nullptr};  // whose cells are the obstacles, or null
         double reach_;
+        std::vector<BodyPiece> pieces_;
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;

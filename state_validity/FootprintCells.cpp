@@ -30,8 +30,8 @@ namespace parking
         if (headings < 8 || headings > MAX_HEADINGS)
             throw Error("cells of footprints need 8 to " + std::to_string(MAX_HEADINGS) + " headings, not " +
                         std::to_string(headings));
-        const double halfLength = 0.5 * checker.vehicle().length() + checker.margin(),
-                     halfWidth = 0.5 * checker.vehicle().width + checker.margin();
+        const bool isRectangle = checker.body().pieces.empty();
+        const double halfLength = checker.body().halfLength, halfWidth = checker.body().halfWidth;
         const double halfTurn = PI / headings + HAIR, sine = std::sin(halfTurn);
         circumradius_ = inradius_ = 0.0;
         for (int i = 0; i < headings; ++i)
@@ -40,25 +40,33 @@ namespace parking
             // For a body at another pose of the cell, a point of the box is displaced along the body's axes and turned
             // about its centre.
             const double shift = shiftIn(side, yaw, halfTurn);
-            const double length = halfLength - shift - halfWidth * sine;
+            const double length = isRectangle ? halfLength - shift - halfWidth * sine : halfLength;
             const double width = halfWidth - shift - halfLength * sine;
-            cannotTell_ = cannotTell_ || length <= 0.0 || width <= 0.0;
+            cannotTell_ = cannotTell_ || (isRectangle && (length <= 0.0 || width <= 0.0));
             const double local = yaw - checker.obstacles().frame().yaw;
-            Body body{std::cos(local), std::sin(local), {}};
+            Heading body{std::cos(local), std::sin(local), {}};
+            // The radius of the largest common circle: that in a smaller rectangle, or a circle in the outline less the
+            // displacement of its centre.
+            const auto radiusAt = [&](double offset)
+            {
+                return isRectangle ? std::min(width, length - std::abs(offset))
+                                   : checker.body().depthAt(offset) - std::hypot(0.5, 0.5) * side -
+                                         std::abs(offset) * sine / std::cos(0.5 * halfTurn);
+            };
             const double half = length / static_cast<double>(body.circles.size());
             for (std::size_t k = 0; k < body.circles.size(); ++k)
             {
                 const double offset = half * static_cast<double>(2 * k + 1) - length;
-                body.circles[k] = {offset, std::min(width, length - std::abs(offset)) - HAIR};
+                body.circles[k] = {offset, radiusAt(offset) - HAIR};
             }
             bodies_.push_back(body);
-            circumradius_ = std::max(circumradius_, std::hypot(length, width) + HAIR);
-            inradius_ = i == 0 ? std::min(length, width) : std::min(inradius_, std::min(length, width));
+            circumradius_ = std::max(circumradius_, std::hypot(length, isRectangle ? width : halfWidth) + HAIR);
+            inradius_ = i == 0 ? radiusAt(0.0) : std::min(inradius_, radiusAt(0.0));
         }
         inradius_ -= HAIR;
     }
 
-    bool FootprintCells::isBlocked(const Body &body, double x, double y) const
+    bool FootprintCells::isBlocked(const Heading &body, double x, double y) const
     {
         const DistanceField &field = checker_.field();
         return std::any_of(body.circles.begin(), body.circles.end(),

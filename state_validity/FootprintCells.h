@@ -15,7 +15,10 @@ namespace parking
 
         All bodies of a cell cover a common box: the body at the cell's centre, reduced by the motion of its points
         within the cell. The cell is blocked if, by the distance field, an obstacle reaches into a circle in this box. A
-        cell that is not reported as blocked may still be blocked. */
+        cell that is not reported as blocked may still be blocked.
+
+        For an outline the circles lie in the body and are reduced by the motion of their centres. The body's centre is
+        that of the bounding rectangle. */
     class FootprintCells
     {
     public:
@@ -43,17 +46,17 @@ namespace parking
             double radius;
         };
 
-        /** Circles inside of the common box of all bodies of a cell with this heading interval. */
-        struct Body
+        /** Circles inside of all bodies of a cell with this heading interval. */
+        struct Heading
         {
             double cosine, sine;  // of the heading
             std::array<Circle, 6> circles;
         };
 
-        bool isBlocked(const Body &body, double x, double y) const;
+        bool isBlocked(const Heading &body, double x, double y) const;
 
         const FootprintChecker &checker_;
-        std::vector<Body> bodies_;
+        std::vector<Heading> bodies_;
         bool cannotTell_{false};  // the cells are as wide as the body: none is blocked
         double circumradius_, inradius_;
     };

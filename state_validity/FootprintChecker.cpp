@@ -27,9 +27,16 @@ namespace parking
         // Circles with this clearance imply a separation above CONTACT_BAND, so all tiers agree on contact.
         constexpr double CLEAR = CORNER * FootprintChecker::CONTACT_BAND;
 
-        double circumradiusOf(const Vehicle &vehicle, double margin)
+        /** Largest distance of a point of the body from its centre. */
+        double circumradiusOf(const Body &body)
         {
-            return std::hypot(0.5 * vehicle.length() + margin, 0.5 * vehicle.width + margin);
+            if (body.pieces.empty())
+                return std::hypot(body.halfLength, body.halfWidth);
+            double radius = 0.0;
+            for (const BodyPiece &piece : body.pieces)
+                for (const BodyPiece::Side &side : piece.sides)
+                    radius = std::max(radius, side.corner.norm());
+            return radius;
         }
 
         std::shared_ptr<const IndexedObstacles> checked(std::shared_ptr<const IndexedObstacles> obstacles)
@@ -37,13 +44,6 @@ namespace parking
             if (!obstacles)
                 throw Error("footprint checker: the obstacles are missing");
             return obstacles;
-        }
-
-        double checked(const Vehicle &vehicle, double margin)
-        {
-            vehicle.validate();
-            Require("footprint checker").notNegative("safety margin", margin, "metres");
-            return margin;
         }
     }  // namespace
 
@@ -70,20 +70,22 @@ namespace parking
         obstacles_(world_->obstacles()),
         field_(world_->field()),
         vehicle_(vehicle),
-        margin_(checked(vehicle, margin)),
-        centreOffset_(vehicle.centreOffset()),
-        halfLength_(0.5 * vehicle.length() + margin),
-        halfWidth_(0.5 * vehicle.width + margin),
-        circumradius_(circumradiusOf(vehicle, margin) + CLEAR),
-        inradius_(std::min(halfLength_, halfWidth_) - ROUNDING),
+        margin_(margin),
+        body_(vehicle, margin),
+        centreOffset_(body_.centreOffset),
+        halfLength_(body_.halfLength),
+        halfWidth_(body_.halfWidth),
+        circumradius_(circumradiusOf(body_) + CLEAR),
+        inradius_(body_.depthAt(0.0) - ROUNDING),
         farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
                              halfWidth_)),
-        index_(world_->edges(circumradius_ + CLEARANCE_REACH)),
+        index_(world_->edges(circumradius_ + CLEARANCE_REACH, body_.pieces)),
         edges_(*index_),
         makeContactTest_(std::move(contact))
     {
         const Eigen::Vector2d world = obstacles_.bounds().size();
-        if (2.0 * halfWidth_ > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
+        const double width = 2.0 * (body_.pieces.empty() ? halfWidth_ : vehicle.bodyRadius(margin));
+        if (width > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
             throw Error("the car of " + std::to_string(vehicle.length()) + " m x " + std::to_string(vehicle.width) +
                         " m with a safety margin of " + std::to_string(margin) + " m does not fit into the world of " +
                         std::to_string(world.x()) + " m x " + std::to_string(world.y()) + " m");
@@ -92,15 +94,23 @@ namespace parking
         for (std::size_t i = 0; i < COVERING_CIRCLES; ++i)
         {
             const double offset = -halfLength_ + half * static_cast<double>(2 * i + 1);
-            covering_.push_back({offset, std::hypot(half, halfWidth_) + CLEAR});
+            covering_.push_back({offset, body_.reachBetween(offset - half, offset + half) + CLEAR});
             // Near the bumpers the nearest side of the body is the bumper.
-            inscribed_.push_back({offset, std::min(halfWidth_, halfLength_ - std::abs(offset)) - ROUNDING});
+            inscribed_.push_back({offset, body_.depthAt(offset) - ROUNDING});
         }
     }
 
     OrientedBox FootprintChecker::boxAt(const Pose &local) const
     {
         return bodyAt(local, centreOffset_, halfLength_, halfWidth_);
+    }
+
+    /** A point of the body that is far from its outline: the centre of a rectangle. */
+    Eigen::Vector2d FootprintChecker::innerPoint(const OrientedBox &box) const
+    {
+        const Eigen::Vector2d &inner = body_.inner;
+        return {box.x + box.cosine * inner.x() - box.sine * inner.y(),
+                box.y + box.sine * inner.x() + box.cosine * inner.y()};
     }
 
     /** Moves the box as the car moves along an arc.
@@ -130,7 +140,7 @@ namespace parking
         {
             const std::lock_guard<std::mutex> lock(contactMutex_);
             if (!contactTest_ || contactVersion_ != world_->version())
-                contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_);
+                contactTest_ = makeContactTest_(obstacles_, body_);
             contactVersion_ = world_->version();
             test = contactTest_;
         }
@@ -207,16 +217,17 @@ namespace parking
         return !touches(box);
     }
 
-    /** For a body that no outline crosses: does it lie inside of an obstacle? Then its centre does. */
+    /** For a body that no outline crosses: does it lie inside of an obstacle? Then its inner point does. */
     bool FootprintChecker::isInsideObstacle(const OrientedBox &box) const
     {
-        if (field_.isOutside(box.x, box.y))
+        const Eigen::Vector2d inner = innerPoint(box);
+        if (field_.isOutside(inner.x(), inner.y()))
             return false;
-        if (field_.isInside(box.x, box.y))
+        if (field_.isInside(inner.x(), inner.y()))
             return true;
-        // An outline touches the centre's cell; that can be only when cells are as large as the body. The centre itself
+        // An outline touches the point's cell; that can be only when cells are as large as the body. The point itself
         // is far from all outlines.
-        return obstacles_.covers(box.x, box.y);
+        return obstacles_.covers(inner.x(), inner.y());
     }
 
     double FootprintChecker::clearance(const Pose &pose) const

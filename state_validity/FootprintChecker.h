@@ -3,6 +3,7 @@
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
+#include "state_validity/Body.h"
 #include "state_validity/ContactTest.h"
 #include "state_validity/DistanceField.h"
 #include "state_validity/EdgeIndex.h"
@@ -31,7 +32,7 @@ namespace parking
         CheckCounts &operator+=(const CheckCounts &other);
     };
 
-    /** \brief Collision test, clearance and sweeps of the car's rectangle.
+    /** \brief Collision test, clearance and sweeps of the car's body, a rectangle or any simple polygon.
 
         Three tiers decide a pose. Each one returns a certain result or leaves the decision to the next:
         1. The distance field at the centre of the body is compared with the radii of the circumscribed and the
@@ -42,6 +43,9 @@ namespace parking
            centre determines.
         3. Within CONTACT_BAND of contact, where rounding matters: up to half the band the body touches, above it the
            contact test decides if there is one. Sweeps use the same rule, so a car can leave every free pose.
+
+        A body with an outline is tested as convex pieces, see Body. The margin and the tolerance of a sweep enlarge
+       them as documented there.
 
         Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. The class does not
         depend on OMPL and FCL. FclFootprintChecker is its interface to OMPL, fclContactTest() a contact test. */
@@ -78,6 +82,12 @@ namespace parking
         double margin() const
         {
             return margin_;
+        }
+
+        /** \brief The body with the margin. */
+        const Body &body() const
+        {
+            return body_;
         }
 
         /** \brief Obstacles of the world. */
@@ -167,6 +177,7 @@ namespace parking
 
     private:
         OrientedBox boxAt(const Pose &local) const;
+        Eigen::Vector2d innerPoint(const OrientedBox &box) const;
         void drive(OrientedBox &box, double chord, double cosine, double sine) const;
         double clearanceByField(const OrientedBox &box, double lower, double enough) const;
         bool isInsideObstacle(const OrientedBox &box) const;
@@ -183,6 +194,7 @@ namespace parking
         const DistanceField &field_;
         Vehicle vehicle_;
         double margin_;
+        Body body_;
         double centreOffset_;  // of the body's centre ahead of the rear axle
         double halfLength_, halfWidth_;
         double circumradius_, inradius_, farthest_;

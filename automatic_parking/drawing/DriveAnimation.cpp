@@ -162,6 +162,10 @@ namespace parking
         add("frontOverhang", number(car.frontOverhang));
         add("rearOverhang", number(car.rearOverhang));
         add("width", number(car.width));
+        std::string outline;
+        for (const Eigen::Vector2d &corner : car.outline)
+            outline += (outline.empty() ? "[" : ",[") + formatNumber(corner.x()) + "," + formatNumber(corner.y()) + "]";
+        add("outline", "[" + outline + "]");
         add("plotLeft", number(SvgPlot::LEFT));
         add("plotRight", number(PLOT_WIDTH - SvgPlot::RIGHT));
         data += "}";

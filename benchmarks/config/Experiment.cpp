@@ -62,6 +62,8 @@ namespace parking
                  {car.wheelbase, car.frontOverhang, car.rearOverhang, car.width, car.maxSteeringAngle, car.maxSpeed,
                   car.maxAcceleration, car.maxSteeringRate, scenario.worldOffset.x(), scenario.worldOffset.y()})
                 text += formatNumber(value) + ",";
+            for (const Eigen::Vector2d &corner : car.outline)
+                text += "o" + formatNumber(corner.x()) + "," + formatNumber(corner.y()) + ",";
             describe(text, scenario.start);
             for (const Pose &goal : scenario.goals)
                 describe(text, goal);

@@ -21,6 +21,8 @@ def yaml_text(scenario, _file):
     vehicle = scenario.vehicle
     fields = [f"name: '{one_line(vehicle.name)}'"]
     fields += [f'{name}: {number(getattr(vehicle, name))}' for name in VEHICLE_FIELDS]
+    if len(vehicle.outline) > 0:
+        fields.append('outline: [' + ', '.join(f'[{numbers(corner)}]' for corner in vehicle.outline) + ']')
     lines = [f'vehicle: {{{", ".join(fields)}}}', f'start: [{numbers(scenario.start)}]',
              f'goal: [{numbers(scenario.goals[0])}]']
     polygons = obstacle_polygons(scenario)

@@ -30,6 +30,10 @@ namespace parking
             vehicle.rearOverhang = vehicle.wheelbase = 0.5 * car.length();
             vehicle.frontOverhang = 0.0;
             vehicle.maxSteeringAngle = std::atan(vehicle.wheelbase * std::tan(car.maxSteeringAngle) / car.wheelbase);
+            for (Eigen::Vector2d &corner : vehicle.outline)
+                corner.x() -= car.centreOffset();
+            if (!vehicle.outline.empty())
+                vehicle.setOutline(vehicle.outline);
             return vehicle;
         }
 

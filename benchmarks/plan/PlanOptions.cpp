@@ -23,7 +23,9 @@ namespace parking
             add("vehicle", oneValue("NAME|FILE"), "replace the scenario's car: a known name or a YAML file");
             add("set", manyValues("KEY=VALUE"), "set a parameter of the planner; repeatable");
             add("space", oneValue("NAME"), "reeds_shepp (default), dubins or se2 (default for the grid models)");
-            add("footprint", oneValue("NAME"), "rectangle (default) or circle (default for the grid models)");
+            add("footprint", oneValue("NAME"),
+                "rectangle: the body of the car, also one with an outline (default); or circle (default for the grid "
+                "models)");
             add("circle-radius", oneValue("M"), "radius in metres; default: half of the car's width");
             add("time-limit", oneValue("S"), "limit in seconds for each run (default 5)");
             add("runs", oneValue("N"),

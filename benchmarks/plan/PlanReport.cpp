@@ -34,11 +34,15 @@ namespace parking
 
         json vehicleJson(const Vehicle &vehicle)
         {
+            json outline = json::array();
+            for (const Eigen::Vector2d &corner : vehicle.outline)
+                outline.push_back({corner.x(), corner.y()});
             return {{"name", vehicle.name},
                     {"wheelbase", vehicle.wheelbase},
                     {"front_overhang", vehicle.frontOverhang},
                     {"rear_overhang", vehicle.rearOverhang},
                     {"width", vehicle.width},
+                    {"outline", outline},
                     {"max_steering_angle", vehicle.maxSteeringAngle},
                     {"max_speed", vehicle.maxSpeed},
                     {"max_acceleration", vehicle.maxAcceleration},

@@ -82,7 +82,7 @@ namespace parking
 
     /** \brief A scenario for OMPL's planners: space, bounds, validity and motion checks.
 
-        FclFootprintChecker and SweptMotionValidator check rectangles, CircleValidityChecker checks discs. States are in
+        FclFootprintChecker and SweptMotionValidator check bodies, CircleValidityChecker checks discs. States are in
         the scenario's local coordinates. */
     class Problem
     {
@@ -128,7 +128,7 @@ namespace parking
             return *curveSpace_;
         }
 
-        /** \brief The checker of the car's rectangle; also available when the footprint is a disc. */
+        /** \brief The checker of the car's body; also available when the footprint is a disc. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;

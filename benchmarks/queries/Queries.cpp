@@ -72,6 +72,14 @@ namespace parking
             scenario.bounds = {world.range.min - around, world.range.max + around};
         }
 
+        std::string corners(const Polygon &polygon)
+        {
+            std::string text;
+            for (const Eigen::Vector2d &corner : polygon)
+                text += (text.empty() ? "[" : ", [") + formatNumber(corner.x()) + ", " + formatNumber(corner.y()) + "]";
+            return "[" + text + "]";
+        }
+
         std::string numbers(const Pose &pose)
         {
             return "[" + formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw) + "]";
@@ -138,10 +146,18 @@ namespace parking
     {
         Scenario larger = world.scenario;
         const double more = std::max(margin, LEAST_MARGIN);
-        larger.vehicle.frontOverhang += more;
-        larger.vehicle.rearOverhang += more;
-        larger.vehicle.width += 2.0 * more;
+        const bool isRectangle = larger.vehicle.outline.empty();
+        if (isRectangle)
+        {
+            larger.vehicle.frontOverhang += more;
+            larger.vehicle.rearOverhang += more;
+            larger.vehicle.width += 2.0 * more;
+        }
         const FreeSpace space(larger);
+        const auto isFree = [&](const Pose &pose)
+        {
+            return space.isFree(pose) && (isRectangle || space.clearance(pose, more) >= more);
+        };
         const auto pushed = [&](const Pose &from) -> std::optional<Pose>
         {
             const double direction = random.between(-PI, PI);
@@ -150,7 +166,7 @@ namespace parking
             {
                 const Pose next = rounded(
                     {from.x + distance * std::cos(direction), from.y + distance * std::sin(direction), from.yaw});
-                if (!space.isFree(next))
+                if (!isFree(next))
                     return distance > PUSH ? std::optional<Pose>(last) : std::nullopt;
                 last = next;
             }
@@ -163,7 +179,7 @@ namespace parking
                 const double x = random.between(world.range.min.x(), world.range.max.x());
                 const double y = random.between(world.range.min.y(), world.range.max.y());
                 const Pose pose = rounded({x, y, random.between(-PI, PI)});
-                if (!space.isFree(pose))
+                if (!isFree(pose))
                     continue;
                 const std::optional<Pose> found = near ? pushed(pose) : pose;
                 if (found)
@@ -193,19 +209,15 @@ namespace parking
                                                        {"max_steering_rate", car.maxSteeringRate}};
         for (const auto &[key, value] : fields)
             text += std::string(", ") + key + ": " + formatNumber(value);
+        if (!car.outline.empty())
+            text += ", outline: " + corners(car.outline);
         text += "}\nstart: " + numbers(query.start) + "\ngoal: " + numbers(query.goal) + "\n";
         if (scenario.grid)
             return text + "map: " + map + "\nunknown_is_occupied: " + (scenario.unknownIsOccupied ? "true" : "false") +
                    "\n";
         text += "polygons:";
         for (const Polygon &polygon : scenario.polygons)
-        {
-            std::string corners;
-            for (const Eigen::Vector2d &corner : polygon)
-                corners +=
-                    (corners.empty() ? "[" : ", [") + formatNumber(corner.x()) + ", " + formatNumber(corner.y()) + "]";
-            text += "\n  - [" + corners + "]";
-        }
+            text += "\n  - " + corners(polygon);
         return text + (scenario.polygons.empty() ? " []\n" : "\n");
     }
 

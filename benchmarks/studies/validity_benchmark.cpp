@@ -4,6 +4,7 @@
 // more robust than times: --benchmark_enable_random_interleaving=true measures both sides of a ratio under the same
 // conditions.
 
+#include "benchmarks/worlds/OutlinedVehicles.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,13 +54,15 @@ namespace
     {
         Place(const ObstacleSet &obstacles, const Vehicle &vehicle)
           : tiered(std::make_unique<FootprintChecker>(obstacles, vehicle, 0.0, fclContactTest())),
+            hexagon(std::make_unique<FootprintChecker>(obstacles, parking_test::hexagonalCar())),
             plain(std::make_unique<PlainFclChecker>(obstacles, vehicle))
         {
         }
 
-        std::unique_ptr<FootprintChecker> tiered;  ///< distance field and circles before the exact check
-        std::unique_ptr<PlainFclChecker> plain;    ///< FCL for every pose
-        std::vector<Pose> poses;                   ///< of the rear axle, in the world's local coordinates
+        std::unique_ptr<FootprintChecker> tiered;   ///< distance field and circles before the exact check
+        std::unique_ptr<FootprintChecker> hexagon;  ///< the same for a car with cut-off corners
+        std::unique_ptr<PlainFclChecker> plain;     ///< FCL for every pose
+        std::vector<Pose> poses;                    ///< of the rear axle, in the world's local coordinates
     };
 
     /** Eight random worlds with 4000 poses each, equal in every run.
@@ -165,6 +169,7 @@ namespace
     enum class Checker
     {
         Tiered,   ///< FootprintChecker, with FCL within the band round contact
+        Hexagon,  ///< FootprintChecker for a body of six corners
         PlainFcl  ///< FCL for every pose
     };
 
@@ -176,8 +181,9 @@ namespace
         for (auto _ : state)
         {
             const Place &place = places[world];
-            free += kind == Checker::Tiered ? place.tiered->isFree(place.poses[i], counts)
-                                            : place.plain->isFree(place.poses[i]);
+            free += kind == Checker::PlainFcl
+                        ? place.plain->isFree(place.poses[i])
+                        : (kind == Checker::Tiered ? place.tiered : place.hexagon)->isFree(place.poses[i], counts);
             ++checks;
             if (++i < place.poses.size())
                 continue;
@@ -195,7 +201,7 @@ namespace
         state.counters["field %"] = percent(counts.byField);
         state.counters["circles %"] = percent(counts.byCircles);
         state.counters["edges %"] = percent(counts.byEdges);
-        state.counters["FCL %"] = kind == Checker::Tiered ? percent(counts.byContactTest) : 100.0;
+        state.counters["FCL %"] = kind == Checker::PlainFcl ? 100.0 : percent(counts.byContactTest);
     }
 
     // ---- motions ---------------------------------------------------------------------------------------------------
@@ -356,17 +362,21 @@ namespace
     };
 
     /** Random arcs of a metre whose minimum clearance is in this interval; full lock to either side, and straight. */
-    void sweptArc(benchmark::State &state, double least, double most, bool prepared)
+    void sweptArc(benchmark::State &state, double least, double most, bool prepared, bool isHexagon)
     {
         const std::vector<Place> &places = placesOf(false, Surroundings::Mixed);
         std::vector<Arc> arcs;
         Random random(7);
         CheckCounts counts;
+        const auto checkerIn = [&](std::size_t world) -> const FootprintChecker &
+        {
+            return isHexagon ? *places[world].hexagon : *places[world].tiered;
+        };
         const double lock = 1.0 / Vehicle().minTurningRadius();
         while (arcs.size() < 2000)
         {
             const std::size_t world = random.index(places.size());
-            const FootprintChecker &checker = *places[world].tiered;
+            const FootprintChecker &checker = checkerIn(world);
             const Pose pose = places[world].poses[random.index(places[world].poses.size())];
             const double curvature = (static_cast<double>(random.index(3)) - 1.0) * lock;
             const double length = random.chance(0.5) ? 1.0 : -1.0;
@@ -382,7 +392,7 @@ namespace
         for (auto _ : state)
         {
             const Arc &arc = arcs[i];
-            const FootprintChecker &checker = *places[arc.world].tiered;
+            const FootprintChecker &checker = checkerIn(arc.world);
             benchmark::DoNotOptimize(prepared ? checker.freeLength(arc.start, arc.curvature, arc.length, counts)
                                               : checker.freeLength(arc.pose, arc.curvature, arc.length, 1e-3, counts));
             if (++i == arcs.size())
@@ -434,8 +444,8 @@ namespace
 
     void registerAll()
     {
-        const std::vector<std::pair<std::string, Checker>> kinds{{"plain_fcl", Checker::PlainFcl},
-                                                                 {"two_tier", Checker::Tiered}};
+        const std::vector<std::pair<std::string, Checker>> kinds{
+            {"plain_fcl", Checker::PlainFcl}, {"two_tier", Checker::Tiered}, {"hexagon", Checker::Hexagon}};
         for (const auto &[name, kind] : kinds)
         {
             for (const bool grids : {false, true})
@@ -461,11 +471,13 @@ namespace
                     ->Unit(benchmark::kMicrosecond);
         }
         benchmark::RegisterBenchmark("wrongMotions", wrongMotions)->Iterations(1)->Unit(benchmark::kSecond);
-        for (const bool prepared : {false, true})
+        for (const auto &[how, prepared, isHexagon] :
+             {std::tuple("", false, false), {"/prepared", true, false}, {"/prepared/hexagon", true, true}})
         {
-            const std::string how = prepared ? "/prepared" : "";
-            benchmark::RegisterBenchmark(("sweptArc1m/free" + how).c_str(), sweptArc, 3.0, 100.0, prepared);
-            benchmark::RegisterBenchmark(("sweptArc1m/clearance_20cm" + how).c_str(), sweptArc, 0.15, 0.25, prepared);
+            benchmark::RegisterBenchmark((std::string("sweptArc1m/free") + how).c_str(), sweptArc, 3.0, 100.0, prepared,
+                                         isHexagon);
+            benchmark::RegisterBenchmark((std::string("sweptArc1m/clearance_20cm") + how).c_str(), sweptArc, 0.15, 0.25,
+                                         prepared, isHexagon);
         }
         using Named = std::pair<const char *, void (*)(benchmark::State &)>;
         for (const auto &[name, build] : {Named("distanceField", distanceField), Named("checkerOfMap", checkerOfMap)})

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace parking_test
 {
@@ -28,8 +29,10 @@ namespace parking_test
         /** Maximum distance in metres of the enlarged body from the middle of the rear axle. */
         double reachOf(const Vehicle &vehicle, double margin)
         {
-            return 1e-9 + std::hypot(std::max(vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang) + margin,
-                                     0.5 * vehicle.width + margin);
+            return 1e-9 +
+                   std::hypot(std::max(vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang) + margin,
+                              0.5 * vehicle.width + margin) +
+                   (vehicle.outline.empty() ? 0.0 : std::abs(margin));
         }
 
         /** Lower bound of the distance of the box from the rear axle. */
@@ -50,8 +53,20 @@ namespace parking_test
             sine(std::sin(pose.yaw)),
             rear(-static_cast<Real>(vehicle.rearOverhang) - margin),
             front(static_cast<Real>(vehicle.wheelbase) + vehicle.frontOverhang + margin),
-            side(0.5L * vehicle.width + margin)
+            side(0.5L * vehicle.width + margin),
+            spread(vehicle.outline.empty() ? 0.0 : std::max(margin, 0.0))
         {
+            // A positive margin of an outline is a distance, a negative one moves the sides inwards.
+            const Polygon &corners = vehicle.outline;
+            const std::size_t count = corners.size();
+            for (std::size_t i = 0; i < count; ++i)
+            {
+                const Eigen::Vector2d in = (corners[i] - corners[(i + count - 1) % count]).normalized();
+                const Eigen::Vector2d out = (corners[(i + 1) % count] - corners[i]).normalized();
+                const Real more = std::min<Real>(margin, 0.0L) / (1.0L + in.dot(out));
+                outline.push_back(
+                    {corners[i].x() + more * (in.y() + out.y()), corners[i].y() - more * (in.x() + out.x())});
+            }
         }
 
         Point toCar(const Point &point) const
@@ -66,13 +81,14 @@ namespace parking_test
         }
 
         /** Corners relative to the rear axle, along the axes of the world. */
-        std::array<Point, 4> corners() const
+        std::vector<Point> corners() const
         {
-            const auto at = [this](Real along, Real across)
-            {
-                return Point{cosine * along - sine * across, sine * along + cosine * across};
-            };
-            return {at(rear, -side), at(front, -side), at(front, side), at(rear, side)};
+            std::vector<Point> result = outline;
+            if (result.empty())
+                result = {{rear, -side}, {front, -side}, {front, side}, {rear, side}};
+            for (Point &point : result)
+                point = {cosine * point.x - sine * point.y, sine * point.x + cosine * point.y};
+            return result;
         }
 
         /** Metres between the outermost corners and the sides of a box; not positive if a corner is outside. */
@@ -82,14 +98,63 @@ namespace parking_test
             for (const Point &corner : corners())
                 least = std::min({least, x - box.min.x() + corner.x, box.max.x() - x - corner.x,
                                   y - box.min.y() + corner.y, box.max.y() - y - corner.y});
-            return least;
+            return least - spread;
         }
 
         /** Whether the segment has a point in the closed body: the part of it between opposite sides, axis by axis. */
         bool touches(const Point &a, const Point &b) const
         {
+            if (!outline.empty())
+                return spread > 0.0L ? distanceToOutline(a, b) <= spread : meetsOutline(a, b);
             Real begin = 0.0L, end = 1.0L;
             return within(a.x, b.x, rear, front, begin, end) && within(a.y, b.y, -side, side, begin, end);
+        }
+
+        /** Whether the segment has a point in the closed outline: an end is inside, or sides are met. */
+        bool meetsOutline(const Point &a, const Point &b) const
+        {
+            const auto turn = [](const Point &p, const Point &q, const Point &r)
+            {
+                return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+            };
+            bool inside = false;
+            Point from = outline.back();
+            for (const Point &to : outline)
+            {
+                const Real ofFrom = turn(a, b, from), ofTo = turn(a, b, to);
+                const Real ofA = turn(from, to, a), ofB = turn(from, to, b);
+                const bool isApart =
+                    std::max(a.x, b.x) < std::min(from.x, to.x) || std::min(a.x, b.x) > std::max(from.x, to.x) ||
+                    std::max(a.y, b.y) < std::min(from.y, to.y) || std::min(a.y, b.y) > std::max(from.y, to.y);
+                if (!isApart && ofFrom * ofTo <= 0.0L && ofA * ofB <= 0.0L)
+                    return true;
+                if ((from.y > a.y) != (to.y > a.y) && from.x + (a.y - from.y) * (to.x - from.x) / (to.y - from.y) > a.x)
+                    inside = !inside;
+                from = to;
+            }
+            return inside;
+        }
+
+        /** Distance of a segment from the solid outline. */
+        Real distanceToOutline(const Point &a, const Point &b) const
+        {
+            if (meetsOutline(a, b))
+                return 0.0L;
+            const auto toSegment = [](const Point &p, const Point &from, const Point &to)
+            {
+                const Real dx = to.x - from.x, dy = to.y - from.y, length = square(dx, dy);
+                const Real t =
+                    length > 0.0L ? std::clamp(((p.x - from.x) * dx + (p.y - from.y) * dy) / length, 0.0L, 1.0L) : 0.0L;
+                return square(p.x - from.x - t * dx, p.y - from.y - t * dy);
+            };
+            Real least = std::numeric_limits<Real>::infinity();
+            Point from = outline.back();
+            for (const Point &to : outline)
+            {
+                least = std::min({least, toSegment(a, from, to), toSegment(b, from, to), toSegment(from, a, b)});
+                from = to;
+            }
+            return std::sqrt(least);
         }
 
         static bool within(Real a, Real b, Real low, Real high, Real &begin, Real &end)
@@ -109,14 +174,16 @@ namespace parking_test
         bool touches(const Corners &polygon) const
         {
             bool inside = false;
+            const Point start = outline.empty() ? Point{0.0L, 0.0L} : outline.front();
             Point a = toCar(polygon.back());
             for (const auto &corner : polygon)
             {
                 const Point b = toCar(corner);
                 if (touches(a, b))
                     return true;
-                // Whether a ray from the rear axle to the right is crossed. It never touches, or the body would.
-                if ((a.y > 0.0L) != (b.y > 0.0L) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0.0L)
+                // Whether a ray from a point of the body to the right is crossed. That point never touches a side, or
+                // the body would.
+                if ((a.y > start.y) != (b.y > start.y) && a.x - (a.y - start.y) * (b.x - a.x) / (b.y - a.y) > start.x)
                     inside = !inside;
                 a = b;
             }
@@ -126,6 +193,8 @@ namespace parking_test
         /** Distance of a segment outside of the body. */
         Real distance(const Point &a, const Point &b) const
         {
+            if (!outline.empty())
+                return distanceToOutline(a, b) - spread;
             const auto toBody = [this](const Point &p)
             {
                 return square(std::max({rear - p.x, 0.0L, p.x - front}), std::max({-side - p.y, 0.0L, p.y - side}));
@@ -143,6 +212,8 @@ namespace parking_test
 
         Real x, y, cosine, sine;
         Real rear, front, side;
+        Real spread;                 ///< distance that an outline must keep
+        std::vector<Point> outline;  ///< of a body that is not a rectangle, in the frame of the car
     };
 
     PolygonOracle::PolygonOracle(std::vector<Polygon> obstacles, const Box &bounds)
@@ -269,11 +340,13 @@ namespace parking_test
             const long cell = static_cast<long>(std::floor(value / size));
             return static_cast<std::size_t>(std::clamp(cell, 0L, static_cast<long>(count) - 1));
         };
-        Point low{body.x, body.y}, high = low;
+        constexpr Real INF = std::numeric_limits<Real>::infinity();
+        Point low{INF, INF}, high{-INF, -INF};
         for (const Point &corner : body.corners())
         {
-            low = {std::min(low.x, body.x + corner.x), std::min(low.y, body.y + corner.y)};
-            high = {std::max(high.x, body.x + corner.x), std::max(high.y, body.y + corner.y)};
+            low = {std::min(low.x, body.x + corner.x - body.spread), std::min(low.y, body.y + corner.y - body.spread)};
+            high = {std::max(high.x, body.x + corner.x + body.spread),
+                    std::max(high.y, body.y + corner.y + body.spread)};
         }
         if (!(low.x > 0.0L && low.y > 0.0L && high.x < size * static_cast<Real>(grid_->width()) &&
               high.y < size * static_cast<Real>(grid_->height())))

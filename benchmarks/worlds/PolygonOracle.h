@@ -33,7 +33,8 @@ namespace parking_test
 
         /** \brief Whether the body is free at \e pose.
 
-            \param margin metres by which the body is enlarged on each side; negative to shrink it */
+            \param margin metres by which the body is enlarged on each side; negative to shrink it. Around an outline
+           the enlarged body is the area within that distance. */
         bool isFree(const parking::Pose &pose, const parking::Vehicle &vehicle, double margin = 0.0) const;
 
         /** \brief The distance between the body and the nearest obstacle; 0 in contact. Not for grids. */

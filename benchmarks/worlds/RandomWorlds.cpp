@@ -115,9 +115,9 @@ namespace parking_test
         if (random.chance(0.3))  // side along side
             yaw = std::atan2(edge.to.y() - edge.from.y(), edge.to.x() - edge.from.x());
         const auto corners = vehicle.footprint({0.0, 0.0, yaw});
-        const std::size_t side = random.index(4);
+        const std::size_t side = random.index(corners.size());
         const double along = random.chance(0.3) ? 0.0 : random.between(0.0, 1.0);
-        const Eigen::Vector2d place = corners[side] + along * (corners[(side + 1) % 4] - corners[side]);
+        const Eigen::Vector2d place = corners[side] + along * (corners[(side + 1) % corners.size()] - corners[side]);
         return {at.x() - place.x(), at.y() - place.y(), yaw};
     }
 

@@ -198,14 +198,17 @@ namespace
             const auto *checker =
                 dynamic_cast<const parking::FclFootprintChecker *>(si_->getStateValidityChecker().get());
             if (checker == nullptr)
-                throw ompl::Exception(getName(), "supports only problems with a rectangular footprint");
+                throw ompl::Exception(getName(), "supports only problems with the footprint of a car");
             const parking::Vehicle &car = checker->footprint().vehicle();
             const parking::ObstacleSet &obstacles = checker->footprint().obstacles();
             std::ostringstream text;
             text.precision(17);
             text << "vehicle: {wheelbase: " << car.wheelbase << ", front_overhang: " << car.frontOverhang
                  << ", rear_overhang: " << car.rearOverhang << ", width: " << car.width
-                 << ", max_steering_angle: " << car.maxSteeringAngle << "}\n";
+                 << ", max_steering_angle: " << car.maxSteeringAngle;
+            for (std::size_t i = 0; i < car.outline.size(); ++i)
+                text << (i == 0 ? ", outline: [[" : ", [") << car.outline[i].x() << ", " << car.outline[i].y() << "]";
+            text << (car.outline.empty() ? "}\n" : "]}\n");
             write(text, "start", parking::poseOf(start));
             write(text, "goal", parking::poseOf(goal));
             text << "polygons:";

@@ -106,6 +106,8 @@ namespace parking
         try
         {
             settings = readSettings(*node, name_);
+            if (settings.usesRobotFootprint)
+                setFootprint(settings.vehicle);
             const OccupancyGrid grid = copyOfCostmap(settings);
             const Box bounds = boundsOf(grid);
             if (!isWithin(bounds, stops.front()))
@@ -141,6 +143,17 @@ namespace parking
             plan.poses.push_back(stamped);
         }
         return plan;
+    }
+
+    void ImprovedAStarPlanner::setFootprint(Vehicle &vehicle) const
+    {
+        Polygon outline;
+        for (const auto &corner : costmap_->getRobotFootprint())
+            outline.emplace_back(corner.x, corner.y);
+        if (outline.empty())
+            throw Error("use_robot_footprint is true, but the costmap has no footprint");
+        vehicle.setOutline(outline);
+        vehicle.validate();
     }
 
     OccupancyGrid ImprovedAStarPlanner::copyOfCostmap(const Nav2Settings &settings) const

@@ -65,6 +65,7 @@ namespace parking
         /** Common inputs of all parts of a plan. */
         struct Query;
 
+        void setFootprint(Vehicle &vehicle) const;
         OccupancyGrid copyOfCostmap(const Nav2Settings &settings) const;
         Path planLeg(const Query &query, const Pose &from, const Pose &to, bool isLast) const;
         search::PlanResult planAttempt(const Query &query, const Pose &from, const std::vector<Pose> &goals,

@@ -27,6 +27,7 @@ namespace parking
             visit("rear_overhang", settings.vehicle.rearOverhang);
             visit("width", settings.vehicle.width);
             visit("max_steering_angle", settings.vehicle.maxSteeringAngle);
+            visit("use_robot_footprint", settings.usesRobotFootprint);
             visit("margin", settings.margin);
             visit("lethal_cost", settings.lethalCost);
             visit("unknown_is_occupied", settings.unknownIsOccupied);

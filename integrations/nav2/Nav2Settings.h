@@ -13,6 +13,9 @@ namespace parking
     struct Nav2Settings
     {
         Vehicle vehicle;  ///< from `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
+        /** `use_robot_footprint`: whether the polygon of the costmap's footprint is the body, instead of the rectangle.
+            The origin of the robot's frame must then be the middle of the rear axle. */
+        bool usesRobotFootprint{false};
         PlannerParameters parameters;  ///< by the names of parameterTable(); `turning_radius` is the vehicle's
         GoalSettings goal;             ///< poses that a plan may end at
         double margin{0.05};           ///< `margin`: metres by which the body is enlarged on each side

@@ -15,12 +15,6 @@ namespace parking
             return {pose.x, pose.y};
         }
 
-        Polygon bodyOf(const Vehicle &vehicle, const Pose &pose)
-        {
-            const std::array<Eigen::Vector2d, 4> corners = vehicle.footprint(pose);
-            return {corners.begin(), corners.end()};
-        }
-
         SvgStyle filled(const std::string &fill, const std::string &stroke = "none")
         {
             SvgStyle style;
@@ -216,6 +210,24 @@ namespace parking
             if (swept)
                 map.addLegend({body + " along the " + what, sweepStyle(stretches.front().back().direction)});
         }
+
+        /** The windscreen and the rear window of a rectangular car, with their places along it. */
+        void drawWindows(SvgMap &map, const Pose &pose, double half, double wind, double back, double length,
+                         const SvgStyle &glass)
+        {
+            map.drawPolygon(SvgLayer::Cars,
+                            placed(pose, {{wind, -0.80 * half},
+                                          {wind, 0.80 * half},
+                                          {wind - 0.11 * length, 0.66 * half},
+                                          {wind - 0.11 * length, -0.66 * half}}),
+                            glass);
+            map.drawPolygon(SvgLayer::Cars,
+                            placed(pose, {{back, -0.70 * half},
+                                          {back, 0.70 * half},
+                                          {back + 0.07 * length, 0.62 * half},
+                                          {back + 0.07 * length, -0.62 * half}}),
+                            glass);
+        }
     }  // namespace
 
     Box viewAround(const Scenario &scenario, const SampledPath &path, double margin)
@@ -268,7 +280,7 @@ namespace parking
     {
         drawSweptPath(map, path, what, "car",
                       [&](const Pose &pose, const SvgStyle &style)
-                      { return map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, pose), style); });
+                      { return map.drawPolygon(SvgLayer::Sweep, vehicle.footprint(pose), style); });
     }
 
     void drawDiscPath(SvgMap &map, const SampledPath &path, double radius)
@@ -285,17 +297,20 @@ namespace parking
         body.fillOpacity = 0.22;
         body.strokeWidth = 1.6;
         const SvgLayer layer = SvgLayer::Cars;
-        const bool seen = map.drawPolygon(layer, bodyOf(vehicle, pose), body);
+        const bool seen = map.drawPolygon(layer, vehicle.footprint(pose), body);
 
         // Wheels and windows distinguish front and rear.
         const double half = 0.5 * vehicle.width, rear = -vehicle.rearOverhang;
         const double length = vehicle.length();
         const SvgStyle dark = filled(colour);
         const double wheelHalf = std::min(0.31, 0.4 * std::max(0.1, vehicle.rearOverhang));
+        const bool isRectangle = vehicle.outline.empty();
+        const double wheelWidth = isRectangle ? 0.2 : std::min(0.2, 0.3 * half);
+        const double trackHalf = isRectangle ? half - 0.04 : 0.8 * half;
         for (const double axle : {0.0, vehicle.wheelbase})
             for (const double side : {-1.0, 1.0})
             {
-                const double outer = side * (half - 0.04), inner = side * (half - 0.24);
+                const double outer = side * trackHalf, inner = side * (trackHalf - wheelWidth);
                 map.drawPolygon(layer,
                                 placed(pose, {{axle - wheelHalf, outer},
                                               {axle + wheelHalf, outer},
@@ -306,18 +321,15 @@ namespace parking
         SvgStyle glass = filled(colour);
         glass.fillOpacity = 0.55;
         const double wind = rear + 0.70 * length, back = rear + 0.13 * length;
-        map.drawPolygon(layer,
-                        placed(pose, {{wind, -0.80 * half},
-                                      {wind, 0.80 * half},
-                                      {wind - 0.11 * length, 0.66 * half},
-                                      {wind - 0.11 * length, -0.66 * half}}),
-                        glass);
-        map.drawPolygon(layer,
-                        placed(pose, {{back, -0.70 * half},
-                                      {back, 0.70 * half},
-                                      {back + 0.07 * length, 0.62 * half},
-                                      {back + 0.07 * length, -0.62 * half}}),
-                        glass);
+        if (!isRectangle)
+            // An arrow from the fixed to the steered axle: windows need not fit into an outline.
+            map.drawPolygon(layer,
+                            placed(pose, {{0.5 * vehicle.wheelbase, -0.3 * half},
+                                          {0.8 * vehicle.wheelbase, 0.0},
+                                          {0.5 * vehicle.wheelbase, 0.3 * half}}),
+                            glass);
+        else
+            drawWindows(map, pose, half, wind, back, length, glass);
         map.drawDot(layer, positionOf(pose), 2.6, filled(colour));
         if (seen)
             map.addLegend({label, body});

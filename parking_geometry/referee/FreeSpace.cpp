@@ -14,6 +14,40 @@ namespace parking
         {
             return static_cast<std::size_t>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
         }
+
+        /** The counter-clockwise outline with all sides moved inwards by \e distance metres. */
+        Polygon movedInwards(const Polygon &outline, double distance)
+        {
+            Polygon result;
+            const std::size_t count = outline.size();
+            for (std::size_t i = 0; i < count; ++i)
+            {
+                const Eigen::Vector2d in = (outline[i] - outline[(i + count - 1) % count]).normalized();
+                const Eigen::Vector2d out = (outline[(i + 1) % count] - outline[i]).normalized();
+                // The sum of the normals over 1 + cosine is the displacement that keeps both distances.
+                const Eigen::Vector2d normals(-in.y() - out.y(), in.x() + out.x());
+                result.emplace_back(outline[i] + distance / (1.0 + in.dot(out)) * normals);
+            }
+            return result;
+        }
+
+        /** A shape given in the frame of a pose. */
+        Polygon placed(const Polygon &shape, const Pose &pose)
+        {
+            const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+            Polygon result;
+            for (const Eigen::Vector2d &corner : shape)
+                result.emplace_back(pose.x + c * corner.x() - s * corner.y(), pose.y + s * corner.x() + c * corner.y());
+            return result;
+        }
+
+        Box boundsOf(const Polygon &shape)
+        {
+            Box box{shape.front(), shape.front()};
+            for (const Eigen::Vector2d &corner : shape)
+                box.include(corner);
+            return box;
+        }
     }  // namespace
 
     FreeSpace::FreeSpace(const Scenario &scenario, double circleRadius)
@@ -29,6 +63,8 @@ namespace parking
             halfLength_ = 0.5 * car.length();
             halfWidth_ = 0.5 * car.width;
             farthest_ = std::hypot(std::abs(centreOffset_) + halfLength_, halfWidth_);
+            outline_ = car.outline;
+            smaller_ = movedInwards(outline_, TOUCH);
         }
         if (grid_)
             bounds_ = {{0.0, 0.0},
@@ -95,10 +131,23 @@ namespace parking
         return std::max(0.0, outlines_.distance(shape, std::min(toEnd, enough + radius_)) - radius_);
     }
 
+    double FreeSpace::distance(const Polygon &shape, double enough) const
+    {
+        const Box box = boundsOf(shape);
+        const double toEnd = std::min((box.min - bounds_.min).minCoeff(), (bounds_.max - box.max).minCoeff());
+        return std::max(0.0, outlines_.distance(shape, std::min(toEnd, enough)));
+    }
+
     double FreeSpace::clearance(const Pose &pose, double enough) const
     {
         if (!isFinite(pose))
             return 0.0;
+        if (hasOutline())
+        {
+            const Polygon body = placed(outline_, toLocal(pose));
+            const double free = distance(body, enough);
+            return free > 0.0 && !isInside(body.front()) ? free : 0.0;
+        }
         // At a positive distance no outline crosses the shape.
         const OrientedBox shape = shapeAt(toLocal(pose));
         const double free = distance(shape, enough);
@@ -128,6 +177,13 @@ namespace parking
     {
         if (!isFinite(pose))
             return false;
+        if (hasOutline())
+        {
+            const Polygon body = placed(smaller_, toLocal(pose));
+            const Box box = boundsOf(body);
+            return (box.min.array() >= bounds_.min.array()).all() && (box.max.array() <= bounds_.max.array()).all() &&
+                   outlines_.distance(body, TOUCH) > 0.0 && !isInside(body.front());
+        }
         OrientedBox shape = shapeAt(toLocal(pose));
         const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius_ - TOUCH);
         const Box box = shape.bounds();

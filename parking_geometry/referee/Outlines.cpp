@@ -16,12 +16,51 @@ namespace parking
             return static_cast<std::size_t>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
         }
 
-        double distanceToSegment(const Eigen::Vector2d &point, const Eigen::Vector2d &from, const Eigen::Vector2d &to)
+        /** Whether the segments have a point in common; touching counts unless rounding hides it. */
+        bool intersect(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c,
+                       const Eigen::Vector2d &d)
         {
-            const Eigen::Vector2d along = to - from;
-            const double square = along.squaredNorm();
-            const double share = square > 0.0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0.0;
-            return (point - from - share * along).norm();
+            const auto areApart = [](double first, double second)
+            {
+                return (first > 0.0 && second > 0.0) || (first < 0.0 && second < 0.0);
+            };
+            return !areApart(turn(a, b, c), turn(a, b, d)) && !areApart(turn(c, d, a), turn(c, d, b)) &&
+                   (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() &&
+                   (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
+        }
+
+        /** Number of turns of the outline about the point; not zero inside. */
+        int winding(const Polygon &outline, const Eigen::Vector2d &point)
+        {
+            int turns = 0;
+            for (std::size_t i = 0; i < outline.size(); ++i)
+            {
+                const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+                if (a.y() <= point.y() && b.y() > point.y() && turn(a, b, point) > 0.0)
+                    ++turns;
+                if (a.y() > point.y() && b.y() <= point.y() && turn(a, b, point) < 0.0)
+                    --turns;
+            }
+            return turns;
+        }
+
+        /** Distance in metres between the solid polygon and a segment. If it is at least \e enough, any value from
+            \e enough up to it. */
+        double distanceTo(const Polygon &shape, const Box &round, const Edge &edge, double enough)
+        {
+            const Eigen::Vector2d low = edge.from.cwiseMin(edge.to), high = edge.from.cwiseMax(edge.to);
+            if ((low - round.max).cwiseMax(round.min - high).maxCoeff() >= enough)
+                return enough;
+            double nearest = enough;
+            for (std::size_t i = 0; i < shape.size(); ++i)
+            {
+                const Eigen::Vector2d &a = shape[i], &b = shape[(i + 1) % shape.size()];
+                if (intersect(a, b, edge.from, edge.to))
+                    return 0.0;
+                nearest = std::min({nearest, distanceToSegment(a, edge.from, edge.to),
+                                    distanceToSegment(edge.from, a, b), distanceToSegment(edge.to, a, b)});
+            }
+            return winding(shape, edge.from) != 0 ? 0.0 : nearest;
         }
 
         /** Distance in metres between the box and a segment in its frame. If it is at least \e enough, any value from
@@ -120,8 +159,25 @@ namespace parking
 
     double Outlines::distance(const OrientedBox &box, double enough) const
     {
-        const Box round = box.bounds();
         const Eigen::Vector2d half(box.halfLength, box.halfWidth);
+        return nearestEdge(box.bounds(), enough,
+                           [&](const Edge &edge, double nearest)
+                           { return distanceInFrame(half, box.toFrame(edge.from), box.toFrame(edge.to), nearest); });
+    }
+
+    double Outlines::distance(const Polygon &shape, double enough) const
+    {
+        Box round{shape.front(), shape.front()};
+        for (const Eigen::Vector2d &corner : shape)
+            round.include(corner);
+        return nearestEdge(round, enough,
+                           [&](const Edge &edge, double nearest) { return distanceTo(shape, round, edge, nearest); });
+    }
+
+    /** The smallest distance of a shape with the bounding box \e round from an edge. */
+    template <class Distance>
+    double Outlines::nearestEdge(const Box &round, double enough, const Distance &distance) const
+    {
         double nearest = enough;
         for (double reach = FIRST_LOOK;; reach *= 4.0)
         {
@@ -132,9 +188,7 @@ namespace parking
                 for (std::size_t column = columnOf(seen.min.x()); column <= lastColumn; ++column)
                     for (const std::size_t index : buckets_[row * columns_ + column])
                     {
-                        const Edge &edge = edges_[index];
-                        nearest = std::min(
-                            nearest, distanceInFrame(half, box.toFrame(edge.from), box.toFrame(edge.to), nearest));
+                        nearest = std::min(nearest, distance(edges_[index], nearest));
                         if (nearest <= 0.0)
                             return 0.0;
                     }

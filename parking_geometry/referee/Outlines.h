@@ -35,6 +35,9 @@ namespace parking
             distance. */
         double distance(const OrientedBox &box, double enough) const;
 
+        /** \brief Distance in metres between a solid simple polygon and the nearest edge, as for a box. */
+        double distance(const Polygon &shape, double enough) const;
+
         /** \brief Whether the point is inside of a polygon. The point must lie within the bounds. */
         bool isInside(const Eigen::Vector2d &point) const;
 
@@ -46,6 +49,8 @@ namespace parking
             std::size_t polygon;
         };
 
+        template <class Distance>
+        double nearestEdge(const Box &round, double enough, const Distance &distance) const;
         std::size_t columnOf(double x) const;
         std::size_t rowOf(double y) const;
 

@@ -326,9 +326,10 @@ namespace parking
         NearestApproach approach(*this);
         Pose pose = path.start;
         approach.stand(pose);
-        const auto isStraight = [](const PathPiece &piece)
+        // One query covers a straight drive of a rectangle or a disc.
+        const auto isStraight = [this](const PathPiece &piece)
         {
-            return piece.curvature == 0.0 && piece.sharpness == 0.0 && piece.turn == 0.0;
+            return !space_.hasOutline() && piece.curvature == 0.0 && piece.sharpness == 0.0 && piece.turn == 0.0;
         };
         for (const PathPiece &piece : path.pieces)
         {

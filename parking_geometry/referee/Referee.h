@@ -58,7 +58,7 @@ namespace parking
 
         static constexpr double CLEARANCE = 0.002;  ///< absolute tolerance of minClearance(), metres
 
-        /** \brief Checks the car's rectangle or, if \e circleRadius is positive, a disc about its rear axle. */
+        /** \brief Checks the car's body or, if \e circleRadius is positive, a disc about its rear axle. */
         explicit Referee(const Scenario &scenario, double circleRadius = 0.0);
 
         /** \brief Collision test of the shape. */

@@ -75,7 +75,7 @@ namespace parking
         SeparationOptions separation = view.separation;
         separation.known = touched_;
         const SeparationPlan lines(world_.pieces, world_.body, separation,
-                                   checkpointsAlong(problem.directions, world_.body.wheelbase, view.spacing, guess),
+                                   checkpointsAlong(problem.directions, world_.vehicle.wheelbase, view.spacing, guess),
                                    guess, world_.interrupted);
         if (!lines.isComplete())
         {

@@ -21,7 +21,8 @@ namespace parking
     struct MotionWorld
     {
         const FootprintChecker &checker;          ///< decides whether a motion is free
-        const Vehicle &body;                      ///< enlarged by the checker's margin, with its limits
+        const Vehicle &vehicle;                   ///< its wheelbase and its limits
+        const std::vector<ConvexPiece> &body;     ///< parts of the body with the checker's margin, see partsOf()
         const std::vector<ConvexPiece> &pieces;   ///< the obstacles, in the coordinates of the checker
         const std::function<bool()> &interrupted; /**< polled during the search; may be empty */
 

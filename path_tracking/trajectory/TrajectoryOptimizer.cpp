@@ -92,22 +92,20 @@ namespace parking
     TrajectoryOptimizer::TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options)
       : checker_(checker),
         options_(std::move(options)),
-        body_(checker.vehicle()),
+        vehicle_(checker.vehicle()),
+        body_(partsOf(checker.body())),
         pieces_(convexPieces(checker.obstacles()))
     {
         options_.validate();
-        body_.validate();
+        vehicle_.validate();
         for (const auto &angle : {options_.initialSteering, options_.finalSteering})
             Require("trajectory")
-                .that(!angle || std::abs(*angle) <= body_.maxSteeringAngle, "steering angle at an end",
-                      angle.value_or(0.0), "within the car's " + formatNumber(body_.maxSteeringAngle) + " radians");
-        body_.frontOverhang += checker.margin();
-        body_.rearOverhang += checker.margin();
-        body_.width += 2.0 * checker.margin();
-        body_.maxSpeed *= options_.speedShare;
-        body_.maxAcceleration *= options_.accelerationShare;
-        body_.maxSteeringAngle *= options_.steeringShare;
-        body_.maxSteeringRate *= options_.steeringRateShare;
+                .that(!angle || std::abs(*angle) <= vehicle_.maxSteeringAngle, "steering angle at an end",
+                      angle.value_or(0.0), "within the car's " + formatNumber(vehicle_.maxSteeringAngle) + " radians");
+        vehicle_.maxSpeed *= options_.speedShare;
+        vehicle_.maxAcceleration *= options_.accelerationShare;
+        vehicle_.maxSteeringAngle *= options_.steeringShare;
+        vehicle_.maxSteeringRate *= options_.steeringRateShare;
     }
 
     double TrajectoryOptimizer::costOf(const TimedMotion &motion) const
@@ -119,7 +117,8 @@ namespace parking
 
     MotionOutline TrajectoryOptimizer::outline(std::vector<StretchGuess> stretches, double step) const
     {
-        return {std::move(stretches), body_, step, options_.initialSteering, options_.finalSteering, options_.sharpest};
+        return {std::move(stretches),   vehicle_,         step, options_.initialSteering,
+                options_.finalSteering, options_.sharpest};
     }
 
     /** One optimisation: solves programs one after another until a motion is found and improves no further. */
@@ -128,7 +127,7 @@ namespace parking
     public:
         Search(const TrajectoryOptimizer &owner, const std::function<bool()> &interrupted)
           : owner_(owner),
-            world_{owner.checker_, owner.body_, owner.pieces_, interrupted},
+            world_{owner.checker_, owner.vehicle_, owner.body_, owner.pieces_, interrupted},
             solver_(world_)
         {
         }
@@ -183,7 +182,7 @@ namespace parking
             void addOutline(const TrajectoryOptimizer &owner)
             {
                 outline.emplace(
-                    owner.outline(guessesAlong(local, owner.body_, owner.options_.initialSpeed), step));
+                    owner.outline(guessesAlong(local, owner.vehicle_, owner.options_.initialSpeed), step));
             }
 
             Path local;  // in the coordinates of the pieces
@@ -236,7 +235,7 @@ namespace parking
                                  const InteriorPointOptions &options = FROM_GUESS)
         {
             MotionProblem problem;
-            problem.vehicle = owner_.body_;
+            problem.vehicle = owner_.vehicle_;
             problem.vehicle.maxAcceleration *= 1.0 - LIMITS_LEFT;
             problem.vehicle.maxSteeringRate *= 1.0 - LIMITS_LEFT;
             problem.vehicle.maxSpeed *= 1.0 - LIMITS_LEFT;
@@ -331,7 +330,7 @@ namespace parking
             for (bool again = true; again;)
             {
                 again = false;
-                const std::vector<StretchGuess> stretches = stretchesOf(best.problem, owner_.body_);
+                const std::vector<StretchGuess> stretches = stretchesOf(best.problem, owner_.vehicle_);
                 std::vector<std::size_t> order(stretches.size());
                 std::iota(order.begin(), order.end(), std::size_t{0});
                 std::stable_sort(order.begin(), order.end(),
@@ -341,7 +340,7 @@ namespace parking
                 {
                     if (attempts >= MAX_DROPS || !solver_.mayContinue() || stretches[index].length() > LONGEST_DROPPED)
                         return;
-                    const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.body_);
+                    const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.vehicle_);
                     if (rest.empty())
                         return;
                     ++attempts;
@@ -384,7 +383,7 @@ namespace parking
         OptimizedTrajectory result;
         result.fallback = true;
         // Within the requested limits, except that the paths may need the full steering angle.
-        Vehicle used = body_;
+        Vehicle used = vehicle_;
         used.maxSteeringAngle = checker_.vehicle().maxSteeringAngle;
         std::vector<std::size_t> searched;  // of the paths
         for (std::size_t i = 0; i < paths.size(); ++i)

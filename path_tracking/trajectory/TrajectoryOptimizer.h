@@ -120,7 +120,8 @@ namespace parking
 
         const FootprintChecker &checker_;
         TrajectoryOptions options_;
-        Vehicle body_;  // enlarged by the checker's margin, with the used shares of its limits
+        Vehicle vehicle_;                // with the used shares of its limits
+        std::vector<ConvexPiece> body_;  // parts of the body with the checker's margin
         std::vector<ConvexPiece> pieces_;
     };
 }  // namespace parking

@@ -58,11 +58,16 @@ const Draw = (() => {
   // A car seen from above. Style: {steering, edge, fill, opacity, brake, reverse}.
   function car(painter, vehicle, pose, looks = {}) {
     const L = vehicle.wheelbase, R = vehicle.rear_overhang, F = vehicle.front_overhang, W = vehicle.width, length = R + L + F, opacity = looks.opacity === undefined ? 1 : looks.opacity;
-    const edge = looks.edge || palette['car-edge'], out = W / 2 - 0.15, fit = (u, v) => [-R + u * length, v * W / 2], t = Math.tan(looks.steering || 0), half = out * t / L;
-    painter.shape(local(pose, rounded(-R, L + F, W / 2, Math.min(0.34, 0.2 * W))), { fill: looks.fill || palette.car, stroke: edge, width: looks.chosen ? 3 : 1.6, opacity });
+    const edge = looks.edge || palette['car-edge'], outline = vehicle.outline, out = outline ? 0.35 * W : W / 2 - 0.15, fit = (u, v) => [-R + u * length, v * W / 2], t = Math.tan(looks.steering || 0), half = out * t / L;
+    painter.shape(local(pose, outline || rounded(-R, L + F, W / 2, Math.min(0.34, 0.2 * W))), { fill: looks.fill || palette.car, stroke: edge, width: looks.chosen ? 3 : 1.6, opacity });
     const wheel = (x, y, angle) => painter.shape(local(local(pose, [[x, y]]).map(([u, v]) => [u, v, pose[2] + angle])[0], [[-0.32, -0.11], [0.32, -0.11], [0.32, 0.11], [-0.32, 0.11]]), { fill: palette.ink, opacity });
     for (const side of [-1, 1]) { wheel(0, side * out, 0); wheel(L, side * out, Math.atan2(t, 1 - side * half)); }
     const glass = { fill: palette.glass, opacity: 0.85 * opacity };
+    if (outline) {  // an arrow from the fixed to the steered axle instead of windows and lamps, which need not fit
+      painter.shape(local(pose, [[0.5 * L, -0.15 * W], [0.8 * L, 0], [0.5 * L, 0.15 * W]]), glass);
+      painter.disc([pose[0], pose[1]], 2.5, { fill: edge, opacity });
+      return;
+    }
     painter.shape(local(pose, [fit(0.66, -0.78), fit(0.66, 0.78), fit(0.56, 0.62), fit(0.56, -0.62)]), glass);
     painter.shape(local(pose, [fit(0.14, -0.7), fit(0.14, 0.7), fit(0.22, 0.6), fit(0.22, -0.6)]), glass);
     for (const side of [-1, 1]) {

@@ -30,13 +30,24 @@ const Formats = (() => {
       return { ...found };
     }
     const tpcap = known.find(each => each.name === 'tpcap'), made = { name: String(value.name || 'custom') };
-    for (const key of Object.keys(value)) if (key !== 'name' && !VEHICLE_FIELDS.includes(key)) fail(file, 0, `vehicle: unknown key '${short(key)}'`);
+    for (const key of Object.keys(value)) if (key !== 'name' && key !== 'outline' && !VEHICLE_FIELDS.includes(key)) fail(file, 0, `vehicle: unknown key '${short(key)}'`);
     VEHICLE_FIELDS.forEach((field, index) => {
-      if (value[field] === undefined && index >= 5) made[field] = tpcap[field];
+      if (value[field] === undefined && (index >= 5 || (value.outline !== undefined && index >= 1 && index <= 3))) made[field] = tpcap[field];
       else if (!isNumber(value[field])) fail(file, 0, `vehicle: ${field} must be a number`);
       else made[field] = value[field];
     });
+    if (value.outline !== undefined) setOutline(file, made, value);
     return made;
+  }
+
+  // The outline, counter-clockwise, and the lengths of its bounding rectangle unless the file gives them.
+  function setOutline(file, car, value) {
+    if (!Array.isArray(value.outline)) fail(file, 0, 'vehicle: outline must be a list of [x, y]');
+    car.outline = value.outline.map(corner => numbers(file, 'vehicle: a corner of outline', corner, 2));
+    if (Scene.area(car.outline) < 0) car.outline.reverse();
+    const xs = car.outline.map(([x]) => x), ys = car.outline.map(([, y]) => Math.abs(y));
+    const lengths = { front_overhang: Math.max(...xs, car.wheelbase) - car.wheelbase, rear_overhang: -Math.min(...xs, 0), width: 2 * Math.max(...ys) };
+    for (const field of Object.keys(lengths)) if (value[field] === undefined) car[field] = lengths[field];
   }
 
   function slot(file, value) {
@@ -237,6 +248,7 @@ const Formats = (() => {
   function toYaml(scene) {
     const lines = [`# Written by the playground of Improved A* for automatic parking.`, `name: ${JSON.stringify(scene.name)}`, 'vehicle:', `  name: ${JSON.stringify(scene.vehicle.name)}`];
     for (const field of VEHICLE_FIELDS) lines.push(`  ${field}: ${number(scene.vehicle[field])}`);
+    if (scene.vehicle.outline) lines.push(`  outline: [${scene.vehicle.outline.map(list).join(', ')}]`);
     lines.push(`start: ${list(scene.start)}`);
     if (scene.slot) {
       const slot = scene.slot;

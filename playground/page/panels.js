@@ -52,7 +52,7 @@ const Panels = (() => {
     select.replaceChildren(...vehicles.map(each => element('option', { value: each.name }, each.name.replace(/_/g, ' '))), ...(known ? [] : [element('option', { value: scene.vehicle.name }, scene.vehicle.name)]));
     select.value = scene.vehicle.name;
     const details = element('details', {}, element('summary', {}, 'Sizes and limits'));
-    for (const key of Formats.VEHICLE_FIELDS) details.append(field(NAMES[key], scene.vehicle[key], 0.01, value => { Scene.remember(); scene.vehicle[key] = value; scene.vehicle.name = 'custom'; Scene.changed(); showVehicle(); }));
+    for (const key of Formats.VEHICLE_FIELDS) details.append(field(NAMES[key], scene.vehicle[key], 0.01, value => { Scene.remember(); scene.vehicle[key] = value; if (Formats.VEHICLE_FIELDS.indexOf(key) < 4) delete scene.vehicle.outline; scene.vehicle.name = 'custom'; Scene.changed(); showVehicle(); }));
     const open = byId('vehicle-fields').querySelector('details[open]') !== null;
     details.open = open;
     byId('vehicle-fields').replaceChildren(details);

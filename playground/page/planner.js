@@ -55,7 +55,8 @@ const Planner = (() => {
   }
 
   function numbersOf(scene) {
-    const all = Formats.VEHICLE_FIELDS.map(field => scene.vehicle[field]);
+    const all = Formats.VEHICLE_FIELDS.map(field => scene.vehicle[field]), outline = scene.vehicle.outline || [];
+    all.push(outline.length, ...outline.flat());
     all.push(...scene.start);
     if (scene.slot) {
       const slot = scene.slot;

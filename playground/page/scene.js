@@ -25,10 +25,10 @@ const Scene = (() => {
   function redo() { if (future.length) { past.push(copy(scene)); replace(future.pop(), 'undone'); } }
   const changed = () => tell('changed');
 
-  // The outline of the car: a rectangle round the rear axle, corners counter-clockwise.
+  // The body of the car, corners counter-clockwise: its outline or a rectangle. With a margin the bounding rectangle.
   function footprint(car, [x, y, yaw], margin = 0) {
     const c = Math.cos(yaw), s = Math.sin(yaw), back = -car.rear_overhang - margin, front = car.wheelbase + car.front_overhang + margin, half = car.width / 2 + margin;
-    return [[back, -half], [front, -half], [front, half], [back, half]].map(([a, b]) => [x + c * a - s * b, y + s * a + c * b]);
+    return (car.outline && margin === 0 ? car.outline : [[back, -half], [front, -half], [front, half], [back, half]]).map(([a, b]) => [x + c * a - s * b, y + s * a + c * b]);
   }
 
   // Pose of a car in a slot, like the first entry of the planner: only for placing dragged objects.

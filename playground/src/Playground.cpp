@@ -154,6 +154,11 @@ namespace
         for (double *field : {&car.wheelbase, &car.frontOverhang, &car.rearOverhang, &car.width, &car.maxSteeringAngle,
                               &car.maxSpeed, &car.maxAcceleration, &car.maxSteeringRate})
             *field = numbers.take();
+        for (std::size_t left = numbers.count(Vehicle::MAX_CORNERS); left > 0; --left)
+        {
+            const double x = numbers.take(), y = numbers.take();
+            car.outline.emplace_back(x, y);
+        }
         scenario.start = numbers.pose();
         if (numbers.count(1) == 0)
             for (std::size_t left = numbers.count(MOST_GOALS); left > 0; --left)

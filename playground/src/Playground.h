@@ -27,7 +27,8 @@ extern "C"
 
     /** \brief Reads the scene from playground_numbers():
 
-        the car (wheelbase, front overhang, rear overhang, width, steering angle, speed, acceleration, steering rate);
+        the car (wheelbase, front overhang, rear overhang, width, steering angle, speed, acceleration, steering rate,
+        the number of corners of its outline, x and y of each, counter-clockwise);
         start x, y, yaw; then either 0, the number of goals, x, y, yaw of each, or 1 and the slot: kind (0
         perpendicular, 1 parallel, 2 angled), x, y, yaw, length, width, entry (0 reverse, 1 forward, 2 either), angle,
         side (0 right, 1 left, 2 either), depth (negative: in the middle), lateral offset; then either 0, the number of

@@ -18,20 +18,22 @@ def vehicles() -> List[str]:
     """Returns the names of the known vehicles."""
 
 class Vehicle:
-    """A car: its rectangular body relative to the rear axle, and its limits.
+    """A car: its body relative to the rear axle, and its limits.
 
     Vehicle("vw_golf8")                     a known car, see vehicles()
     Vehicle("van.yaml")                     a car from a file
     Vehicle("vw_golf8", width=1.9)          a known car with another width
     Vehicle(wheelbase=2.9, width=1.9)       the car of TPCAP with two other fields
+    Vehicle(wheelbase=1.5, outline=corners) a body that is any simple polygon: an n x 2 array in the frame of the car
 
     The fields are in metres, radians and other SI units: wheelbase, front_overhang, rear_overhang, width,
-    max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_steering_rate.
+    max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_steering_rate. With an outline,
+    overhangs and width are those of its bounding rectangle. Other lengths replace the outline by a rectangle.
     """
     def __init__(self, name_or_file: str = 'tpcap', *, name: str = ..., wheelbase: float = ...,
                  front_overhang: float = ..., rear_overhang: float = ..., width: float = ...,
                  max_steering_angle: float = ..., max_speed: float = ..., max_acceleration: float = ...,
-                 max_steering_rate: float = ...) -> None: ...
+                 max_steering_rate: float = ..., outline: ArrayLike = ...) -> None: ...
     @property
     def name(self) -> str:
         """Name of the car; custom after a change of its fields."""
@@ -65,8 +67,12 @@ class Vehicle:
     @property
     def length(self) -> float:
         """Length from bumper to bumper in metres."""
+    @property
+    def outline(self) -> NDArray[numpy.float64]:
+        """Corners of the body in the frame of the car, counter-clockwise, as an n x 2 array; empty for a rectangle."""
     def footprint(self, pose: ArrayLike) -> NDArray[numpy.float64]:
-        """Returns the corners of the body at a pose, counter-clockwise from rear right, as a 4 x 2 array."""
+        """Returns the corners of the body at a pose, counter-clockwise, as an n x 2 array. Those of a rectangle begin
+        at the rear right."""
 
 class Slot:
     """A parking slot: a rectangle with a pose at its centre.

@@ -41,6 +41,22 @@ namespace parking::python
             return {x, y};
         }
 
+        py::list stateOf(const Polygon &polygon)
+        {
+            py::list corners;
+            for (const Eigen::Vector2d &corner : polygon)
+                corners.append(stateOf(corner));
+            return corners;
+        }
+
+        Polygon polygonOf(const py::handle &state)
+        {
+            Polygon polygon;
+            for (const py::handle corner : state)
+                polygon.push_back(pointOf(corner));
+            return polygon;
+        }
+
         /** Cells of a map are stored as one byte each, since there may be millions. */
         py::object stateOf(const std::optional<OccupancyGrid> &grid)
         {
@@ -108,7 +124,7 @@ namespace parking::python
     {
         return py::make_tuple(vehicle.name, vehicle.wheelbase, vehicle.frontOverhang, vehicle.rearOverhang,
                               vehicle.width, vehicle.maxSteeringAngle, vehicle.maxSpeed, vehicle.maxAcceleration,
-                              vehicle.maxSteeringRate);
+                              vehicle.maxSteeringRate, stateOf(vehicle.outline));
     }
 
     Vehicle vehicleOf(const py::tuple &state)
@@ -120,6 +136,7 @@ namespace parking::python
                                   &vehicle.maxAcceleration, &vehicle.maxSteeringRate};
         for (std::size_t i = 0; i < std::size(fields); ++i)
             *fields[i] = py::cast<double>(state[i + 1]);
+        vehicle.outline = polygonOf(state[std::size(fields) + 1]);
         return vehicle;
     }
 
@@ -151,12 +168,7 @@ namespace parking::python
         for (const Pose &goal : scenario.goals)
             goals.append(stateOf(goal));
         for (const Polygon &polygon : scenario.polygons)
-        {
-            py::list corners;
-            for (const Eigen::Vector2d &corner : polygon)
-                corners.append(stateOf(corner));
-            polygons.append(corners);
-        }
+            polygons.append(stateOf(polygon));
         return py::make_tuple(scenario.name, stateOf(scenario.vehicle), stateOf(scenario.start), goals,
                               scenario.slot ? py::object(stateOf(*scenario.slot)) : py::none(), polygons,
                               stateOf(scenario.grid), scenario.unknownIsOccupied, stateOf(scenario.bounds.min),
@@ -175,11 +187,7 @@ namespace parking::python
         if (!state[4].is_none())
             scenario.slot = slotOf(state[4]);
         for (const py::handle polygon : py::cast<py::list>(state[5]))
-        {
-            scenario.polygons.emplace_back();
-            for (const py::handle corner : polygon)
-                scenario.polygons.back().push_back(pointOf(corner));
-        }
+            scenario.polygons.push_back(polygonOf(polygon));
         scenario.grid = gridOf(state[6]);
         scenario.unknownIsOccupied = py::cast<bool>(state[7]);
         scenario.bounds = {pointOf(state[8]), pointOf(state[9])};

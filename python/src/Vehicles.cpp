@@ -40,9 +40,21 @@ namespace parking::python
             Vehicle vehicle = readVehicle(base);
             if (!fields.empty())
                 vehicle.name = "custom";
+            const bool hasLengths = fields.contains("front_overhang") || fields.contains("rear_overhang") ||
+                                    fields.contains("width") || fields.contains("wheelbase");
+            if (fields.contains("outline"))
+            {
+                if (fields.contains("wheelbase"))
+                    vehicle.wheelbase = numberFrom(fields["wheelbase"], "vehicle: wheelbase");
+                vehicle.setOutline(polygonFrom(fields["outline"], "vehicle: outline"));
+            }
+            else if (hasLengths)
+                vehicle.outline.clear();
             for (const auto &[key, value] : fields)
             {
                 const auto name = py::cast<std::string>(key);
+                if (name == "outline")
+                    continue;
                 if (name == "name")
                 {
                     vehicle.name = py::cast<std::string>(py::str(value));
@@ -52,7 +64,7 @@ namespace parking::python
                     std::find_if(FIELDS.begin(), FIELDS.end(), [&](const Field &each) { return each.name == name; });
                 if (field == FIELDS.end())
                 {
-                    std::vector<std::string> names{"name"};
+                    std::vector<std::string> names{"name", "outline"};
                     for (const auto &each : FIELDS)
                         names.emplace_back(each.name);
                     throw Error(unknownName("field of a vehicle", name, names));
@@ -116,15 +128,17 @@ namespace parking::python
         module.def("vehicles", &vehicleNames, "Returns the names of the known vehicles.");
 
         py::class_<Vehicle> vehicle(module, "Vehicle",
-                                    R"(A car: its rectangular body relative to the rear axle, and its limits.
+                                    R"(A car: its body relative to the rear axle, and its limits.
 
 Vehicle("vw_golf8")                     a known car, see vehicles()
 Vehicle("van.yaml")                     a car from a file
 Vehicle("vw_golf8", width=1.9)          a known car with another width
 Vehicle(wheelbase=2.9, width=1.9)       the car of TPCAP with two other fields
+Vehicle(wheelbase=1.5, outline=corners) a body that is any simple polygon: an n x 2 array in the frame of the car
 
 The fields are in metres, radians and other SI units: wheelbase, front_overhang, rear_overhang, width,
-max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_steering_rate.)");
+max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_steering_rate. With an outline, overhangs
+and width are those of its bounding rectangle. Other lengths replace the outline by a rectangle.)");
         vehicle.def(py::init(&makeVehicle), py::arg("name_or_file") = "tpcap");
         vehicle.def_readonly("name", &Vehicle::name, "Name of the car; custom after a change of its fields.");
         for (const auto &field : FIELDS)
@@ -132,15 +146,17 @@ max_steering_angle (mean of the front wheels), max_speed, max_acceleration, max_
         vehicle.def_property_readonly("turning_radius", &Vehicle::minTurningRadius,
                                       "Minimum turning radius of the midpoint of the rear axle in metres.");
         vehicle.def_property_readonly("length", &Vehicle::length, "Length from bumper to bumper in metres.");
+        vehicle.def_property_readonly(
+            "outline", [](const Vehicle &self) { return rowsOf(self.outline); },
+            "Corners of the body in the frame of the car, counter-clockwise, as an n x 2 array; empty for a "
+            "rectangle.");
         vehicle.def(
             "footprint",
-            [](const Vehicle &self, const py::object &pose)
-            {
-                const auto corners = self.footprint(poseFrom(pose, "pose"));
-                return rowsOf({corners.begin(), corners.end()});
-            },
+            [](const Vehicle &self, const py::object &pose) { return rowsOf(self.footprint(poseFrom(pose, "pose"))); },
             py::arg("pose"),
-            "Returns the corners of the body at a pose, counter-clockwise from rear right, as a 4 x 2 array.");
+            "Returns the corners of the body at a pose, counter-clockwise, as an n x 2 array. Those of a rectangle "
+            "begin "
+            "at the rear right.");
         vehicle.def(py::pickle([](const Vehicle &self) { return stateOf(self); }, &vehicleOf));
         vehicle.def("__repr__", [](const Vehicle &self) { return "Vehicle('" + self.name + "')"; });
 

@@ -21,11 +21,12 @@ namespace parking
         constexpr double SOLVER_TOLERANCE = 1e-10;
         constexpr double HEIGHT = 2.0;  // of obstacles; the body, half as high, lies well inside
 
-        std::shared_ptr<fcl::CollisionGeometryd> makePrism(const Polygon &outline, const Eigen::Vector2d &centre)
+        std::shared_ptr<fcl::CollisionGeometryd> makePrism(const Polygon &outline, const Eigen::Vector2d &centre,
+                                                           double height)
         {
             const int count = static_cast<int>(outline.size());
             auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-            for (const double z : {-0.5 * HEIGHT, 0.5 * HEIGHT})
+            for (const double z : {-0.5 * height, 0.5 * height})
                 for (const Eigen::Vector2d &corner : outline)
                     vertices->emplace_back(corner.x() - centre.x(), corner.y() - centre.y(), z);
             // Each face is given by its number of corners and their indices, counter-clockwise from outside.
@@ -65,26 +66,30 @@ namespace parking
         class FclWorld
         {
         public:
-            /** \brief \param halfLength, halfWidth half lengths of the queried boxes in metres
+            /** \brief \param body the queried body: a box, or a convex prism for each of its pieces
 
                 Throws parking::Error if a polygon is not simple. */
-            FclWorld(const ObstacleSet &obstacles, double halfLength, double halfWidth);
+            FclWorld(const ObstacleSet &obstacles, const Body &body);
 
-            /** \brief Whether the box touches an obstacle, by FCL. Its size must be that of the constructor. */
+            /** \brief Whether the body with the bounding rectangle \e box touches an obstacle, by FCL. */
             bool collides(const OrientedBox &box) const;
 
         private:
             void add(const std::shared_ptr<fcl::CollisionGeometryd> &geometry, const fcl::Transform3d &pose);
             void addBox(const Eigen::Vector2d &min, const Eigen::Vector2d &max);
 
-            fcl::CollisionObjectd body_;  ///< copied for each query
+            std::vector<fcl::CollisionObjectd> body_;  ///< its parts, copied for each query
             std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
             fcl::DynamicAABBTreeCollisionManagerd manager_;
         };
 
-        FclWorld::FclWorld(const ObstacleSet &obstacles, double halfLength, double halfWidth)
-          : body_(std::make_shared<fcl::Boxd>(2.0 * halfLength, 2.0 * halfWidth, 0.5 * HEIGHT))
+        FclWorld::FclWorld(const ObstacleSet &obstacles, const Body &body)
         {
+            if (body.pieces.empty())
+                body_.emplace_back(
+                    std::make_shared<fcl::Boxd>(2.0 * body.halfLength, 2.0 * body.halfWidth, 0.5 * HEIGHT));
+            for (const Polygon &piece : body.polygons())
+                body_.emplace_back(makePrism(piece, {0.0, 0.0}, 0.5 * HEIGHT));
             for (const Polygon &polygon : obstacles.polygons())
                 for (const Polygon &piece : convexPieces(polygon))
                 {
@@ -93,7 +98,7 @@ namespace parking
                         centre += corner / static_cast<double>(piece.size());
                     fcl::Transform3d pose = fcl::Transform3d::Identity();
                     pose.translation() = fcl::Vector3d(centre.x(), centre.y(), 0.0);
-                    add(makePrism(piece, centre), pose);
+                    add(makePrism(piece, centre, HEIGHT), pose);
                 }
             for (const Box &rectangle : obstacles.rectangles())
                 addBox(rectangle.min, rectangle.max);
@@ -135,41 +140,41 @@ namespace parking
             pose.linear()(1, 1) = box.cosine;
             pose.translation() = fcl::Vector3d(box.x, box.y, 0.0);
             // A copy shares the shape. Another object would write to the shape while other threads read it.
-            fcl::CollisionObjectd body(body_);
-            body.setTransform(pose);
-            body.computeAABB();
-            Query query;
-            query.request = fcl::CollisionRequestd(1, false);
-            query.request.gjk_solver_type = fcl::GST_LIBCCD;
-            query.request.gjk_tolerance = SOLVER_TOLERANCE;
-            manager_.collide(&body, &query, collidePair);
-            return query.result.isCollision();
+            return std::any_of(body_.begin(), body_.end(),
+                               [&](fcl::CollisionObjectd part)
+                               {
+                                   part.setTransform(pose);
+                                   part.computeAABB();
+                                   Query query;
+                                   query.request = fcl::CollisionRequestd(1, false);
+                                   query.request.gjk_solver_type = fcl::GST_LIBCCD;
+                                   query.request.gjk_tolerance = SOLVER_TOLERANCE;
+                                   manager_.collide(&part, &query, collidePair);
+                                   return query.result.isCollision();
+                               });
         }
     }  // namespace
 
     ContactTestMaker fclContactTest()
     {
-        return [](const ObstacleSet &obstacles, double halfLength, double halfWidth) -> ContactTest
+        return [](const ObstacleSet &obstacles, const Body &body) -> ContactTest
         {
-            return [world = std::make_shared<const FclWorld>(obstacles, halfLength, halfWidth)](const OrientedBox &body)
+            return [world = std::make_shared<const FclWorld>(obstacles, body)](const OrientedBox &box)
             {
-                return world->collides(body);
+                return world->collides(box);
             };
         };
     }
 
     PlainFclChecker::PlainFclChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin)
       : obstacles_(std::move(obstacles)),
-        centreOffset_(vehicle.centreOffset()),
-        halfLength_(0.5 * vehicle.length() + margin),
-        halfWidth_(0.5 * vehicle.width + margin)
+        body_(vehicle, margin),
+        touches_(fclContactTest()(obstacles_, body_))
     {
-        vehicle.validate();
-        touches_ = fclContactTest()(obstacles_, halfLength_, halfWidth_);
     }
 
     bool PlainFclChecker::isFree(const Pose &pose) const
     {
-        return isFinite(pose) && !touches_(bodyAt(obstacles_.toLocal(pose), centreOffset_, halfLength_, halfWidth_));
+        return isFinite(pose) && !touches_(body_.at(obstacles_.toLocal(pose)));
     }
 }  // namespace parking

@@ -27,7 +27,7 @@ namespace parking
 
     private:
         ObstacleSet obstacles_;
-        double centreOffset_, halfLength_, halfWidth_;
+        Body body_;
         ContactTest touches_;
     };
 }  // namespace parking

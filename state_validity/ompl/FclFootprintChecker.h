@@ -14,7 +14,7 @@
 namespace parking
 {
     /** \anchor FclFootprintChecker
-        \brief State validity checker for the car's rectangle in any SE2, Dubins or Reeds-Shepp space; OMPL's interface
+        \brief State validity checker for the car's body in any SE2, Dubins or Reeds-Shepp space; OMPL's interface
         to FootprintChecker.
 
         A valid state lies within the bounds of the state space. Its body, enlarged by the safety margin, touches no

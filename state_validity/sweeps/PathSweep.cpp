@@ -40,11 +40,7 @@ namespace parking
 
         bool isTurnFree(const FootprintChecker &checker, const Pose &pose, const PathPiece &turn)
         {
-            Vehicle body = checker.vehicle();
-            body.frontOverhang += checker.margin();
-            body.rearOverhang += checker.margin();
-            body.width += 2.0 * checker.margin();
-            return isPathFree(poseQueriesOf(checker), body, Path{pose, {turn}});
+            return isPathFree(poseQueriesOf(checker), checker.farthestPoint(), Path{pose, {turn}});
         }
 
         /** Whether \e arc is free from the start of the sweep. */

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "state_validity/Body.h"
+
 namespace parking
 {
     /** \brief A motion of a box along a circular arc or a straight line, in the frame of the box at the beginning.
@@ -31,4 +33,12 @@ namespace parking
 
         This function evaluates every side and every corner. SweepFront is the fast version for many segments. */
     double firstContact(const BoxSweep &sweep, double ax, double ay, double bx, double by);
+
+    /** \brief Metres along the arc until a moving convex piece of a body first touches a segment; infinite without a
+        contact.
+
+        \param piece in the frame of the box of \e sweep, whose half lengths are not used
+        \param more metres by which the piece is enlarged */
+    double firstContact(const BoxSweep &sweep, const BodyPiece &piece, double more, double ax, double ay, double bx,
+                        double by);
 }  // namespace parking

@@ -23,16 +23,18 @@ namespace parking
         return std::shared_ptr<IndexedObstacles>(new IndexedObstacles(Copy{}, *this));
     }
 
-    std::shared_ptr<const EdgeIndex> IndexedObstacles::edges(double reach) const
+    std::shared_ptr<const EdgeIndex> IndexedObstacles::edges(double reach,
+                                                                const std::vector<BodyPiece> &pieces) const
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         indices_.erase(std::remove_if(indices_.begin(), indices_.end(),
                                       [](const std::weak_ptr<EdgeIndex> &index) { return index.expired(); }),
                        indices_.end());
         for (const std::weak_ptr<EdgeIndex> &index : indices_)
-            if (std::shared_ptr<EdgeIndex> known = index.lock(); known && known->reach() == reach)
+            if (std::shared_ptr<EdgeIndex> known = index.lock();
+                known && pieces.empty() && !known->hasPieces() && known->reach() == reach)
                 return known;
-        auto made = std::make_shared<EdgeIndex>(obstacles_, reach);
+        auto made = std::make_shared<EdgeIndex>(obstacles_, reach, pieces);
         indices_.push_back(made);
         return made;
     }

@@ -55,8 +55,9 @@ namespace parking
             return field_;
         }
 
-        /** \brief The edge index with this reach in metres, shared with other callers. It refers to this object. */
-        std::shared_ptr<const EdgeIndex> edges(double reach) const;
+        /** \brief The edge index with this reach in metres. It refers to this object, and is shared with other callers
+            unless it has pieces of a body (see EdgeIndex). */
+        std::shared_ptr<const EdgeIndex> edges(double reach, const std::vector<BodyPiece> &pieces = {}) const;
 
         /** \brief Changes cells of a grid world in place, see ObstacleSet::update().
 

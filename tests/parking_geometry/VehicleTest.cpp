@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/OutlinedVehicles.h"
 #include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Vehicle.h"
 
@@ -118,12 +119,12 @@ TEST(Vehicle, FootprintHasItsCornersInOrder)
     car.frontOverhang = 1.0;
     car.rearOverhang = 0.5;
     car.width = 2.0;
-    const std::array<Eigen::Vector2d, 4> body = car.footprint({10.0, 20.0, 0.0});
+    const Polygon body = car.footprint({10.0, 20.0, 0.0});
     EXPECT_TRUE(body[0].isApprox(Eigen::Vector2d(9.5, 19.0)));   // rear right
     EXPECT_TRUE(body[1].isApprox(Eigen::Vector2d(14.0, 19.0)));  // front right
     EXPECT_TRUE(body[2].isApprox(Eigen::Vector2d(14.0, 21.0)));  // front left
     EXPECT_TRUE(body[3].isApprox(Eigen::Vector2d(9.5, 21.0)));   // rear left
-    const std::array<Eigen::Vector2d, 4> turned = car.footprint({0.0, 0.0, 0.5 * PI});
+    const Polygon turned = car.footprint({0.0, 0.0, 0.5 * PI});
     EXPECT_TRUE(turned[1].isApprox(Eigen::Vector2d(1.0, 4.0)));
 }
 
@@ -168,11 +169,11 @@ TEST(Vehicle, FootprintMovesRigidlyWithItsPose)
 {
     parking_test::Random random(7);
     const Vehicle car;
-    const std::array<Eigen::Vector2d, 4> home = car.footprint({});
+    const Polygon home = car.footprint({});
     for (int i = 0; i < 1000; ++i)
     {
         const Pose pose{random.between(-100.0, 100.0), random.between(-100.0, 100.0), random.between(-100.0, 100.0)};
-        const std::array<Eigen::Vector2d, 4> body = car.footprint(pose);
+        const Polygon body = car.footprint(pose);
         for (std::size_t k = 0; k < 4; ++k)
         {
             const Pose expected = compose(pose, {home[k].x(), home[k].y(), 0.0});
@@ -181,6 +182,80 @@ TEST(Vehicle, FootprintMovesRigidlyWithItsPose)
         }
         EXPECT_NEAR(signedArea({body.begin(), body.end()}), car.length() * car.width, 1e-8);
     }
+}
+
+TEST(Vehicle, OutlineDeterminesTheLengthsOfItsBoundingRectangle)
+{
+    Vehicle car;
+    car.wheelbase = 2.0;
+    // Clockwise, to the left of the axis and ahead of the rear axle.
+    car.setOutline({{0.5, 0.2}, {1.0, 0.9}, {1.5, 0.2}});
+    EXPECT_NO_THROW(car.validate());
+    EXPECT_GT(signedArea(car.outline), 0.0);
+    EXPECT_DOUBLE_EQ(car.rearOverhang, 0.0);  // both axles are within the rectangle
+    EXPECT_DOUBLE_EQ(car.frontOverhang, 0.0);
+    EXPECT_DOUBLE_EQ(car.width, 1.8);
+    EXPECT_DOUBLE_EQ(car.inscribedRadius(), 0.0);  // the axle is outside
+    EXPECT_NEAR(car.inscribedRadius(1.0), 1.0 - std::hypot(0.5, 0.2), 1e-12);
+    const Vehicle lift = parking_test::forklift();
+    EXPECT_DOUBLE_EQ(lift.rearOverhang, 1.6);
+    EXPECT_NEAR(lift.frontOverhang, 0.4, 1e-12);
+    EXPECT_DOUBLE_EQ(lift.width, 1.1);
+    EXPECT_DOUBLE_EQ(lift.inscribedRadius(), 0.4);
+}
+
+TEST(Vehicle, CirclesOfTheOutlineAreWithinIt)
+{
+    parking_test::Random random(5);
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vehicle car = parking_test::randomOutlined(random);
+        const Eigen::Vector2d middle = deepestPoint(car.outline);
+        EXPECT_DOUBLE_EQ(car.bodyRadius(), depthWithin(car.outline, middle));
+        EXPECT_GT(car.bodyRadius(), 0.0);
+        EXPECT_GE(car.bodyRadius() + 1e-3, car.inscribedRadius());
+        for (double angle = 0.0; angle < 2.0 * PI; angle += 0.1)
+        {
+            const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+            EXPECT_TRUE(contains(car.outline, middle + 0.999 * car.bodyRadius() * along));
+            EXPECT_TRUE(car.inscribedRadius() == 0.0 || contains(car.outline, 0.999 * car.inscribedRadius() * along));
+        }
+    }
+    EXPECT_NEAR(parking_test::rectangularOutline().bodyRadius(), Vehicle().bodyRadius(), 1e-6);
+    EXPECT_NEAR(parking_test::rectangularOutline().inscribedRadius(), Vehicle().inscribedRadius(), 1e-12);
+}
+
+TEST(Vehicle, RefusesOutlinesThatAreNoBody)
+{
+    const auto refused = [](const Polygon &outline, const std::string &part)
+    {
+        Vehicle car;
+        car.setOutline(outline);
+        parking_test::expectError([&] { car.validate(); }, {"outline", part});
+    };
+    const double nan = std::nan("");
+    refused({{0.0, 0.0}, {1.0, 0.0}}, "has 2 corners; it must have 3 to 128");
+    refused(Polygon(129, Eigen::Vector2d(0.0, 0.0)), "has 129 corners");
+    refused({{0.0, 0.0}, {nan, 0.0}, {1.0, 1.0}}, "corner 2 at (nan, 0)");
+    refused({{0.0, 0.0}, {50.1, 0.0}, {1.0, 1.0}}, "within 50 m");
+    refused({{0.0, 0.0}, {2.0, 0.0}, {0.0, 1.0}, {1.5, 1.0}}, "crosses itself");
+    refused({{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}}, "nearer than 1 mm");              // no area
+    refused({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {2.0, 1.0}}, "nearer than 1 mm");  // a corner twice
+    refused({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 0.0}}, "nearer than 1 mm");  // touches itself
+    Vehicle car = parking_test::forklift();
+    std::reverse(car.outline.begin(), car.outline.end());
+    parking_test::expectError([&] { car.validate(); }, {"outline is clockwise"});
+    car = parking_test::forklift();
+    car.width = 1.2;
+    parking_test::expectError([&] { car.validate(); }, {"width is 1.2; it must be 1.1 m, as the outline determines"});
+    car = parking_test::forklift();
+    car.wheelbase = 1.5;
+    parking_test::expectError([&] { car.validate(); }, {"front_overhang"});
+    // At the limits.
+    car = Vehicle();
+    car.wheelbase = 1.0;
+    car.setOutline({{-50.0, -0.5}, {0.0, -0.5}, {0.0, -0.4985}, {0.1, 0.5}});
+    EXPECT_NO_THROW(car.validate());
 }
 
 TEST(VehicleCatalogue, HoldsTenRealCarsOfPlausibleSizes)

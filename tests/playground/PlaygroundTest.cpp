@@ -30,8 +30,11 @@ namespace
     std::vector<double> numbersOf(const Scenario &scenario)
     {
         const Vehicle &car = scenario.vehicle;
-        std::vector<double> numbers{car.wheelbase,        car.frontOverhang, car.rearOverhang,    car.width,
-                                    car.maxSteeringAngle, car.maxSpeed,      car.maxAcceleration, car.maxSteeringRate};
+        std::vector<double> numbers{car.wheelbase,       car.frontOverhang,    car.rearOverhang,
+                                    car.width,           car.maxSteeringAngle, car.maxSpeed,
+                                    car.maxAcceleration, car.maxSteeringRate,  static_cast<double>(car.outline.size())};
+        for (const Eigen::Vector2d &corner : car.outline)
+            numbers.insert(numbers.end(), {corner.x(), corner.y()});
         addPose(numbers, scenario.toWorld(scenario.start));
         if (scenario.slot)
         {
@@ -104,7 +107,8 @@ namespace
 
     TEST_F(PlaygroundTest, PlansAsTheCoreDoes)
     {
-        for (const char *name : {"perpendicular", "parallel", "narrow_parallel", "underground_garage"})
+        for (const char *name :
+             {"perpendicular", "parallel", "narrow_parallel", "underground_garage", "../../examples/forklift"})
         {
             const Scenario scenario = bundled(name);
             ASSERT_TRUE(setScene(scenario)) << playground_message();
@@ -192,8 +196,11 @@ namespace
         refused(playground_trajectory(1.0), "there is no plan");
         refused(setScene(std::vector<double>(good.begin(), good.end() - 1)), "the scene ends after");
         refused(setScene(changed(0, nan)), "wheelbase");
-        refused(setScene(changed(8, nan)), "start: x is nan");
-        refused(setScene(changed(12, 7.0)), "must be a whole number from 0 to 2");
+        refused(setScene(changed(9, nan)), "start: x is nan");
+        refused(setScene(changed(13, 7.0)), "must be a whole number from 0 to 2");
+        Scenario wrong = bundled("parallel");
+        wrong.vehicle.outline = {{0.0, 0.0}, {0.0, 1.0}, {3.0, 0.0}};
+        refused(setScene(numbersOf(wrong)), "outline is clockwise");
         std::vector<double> longer = good;
         longer.push_back(1.0);
         refused(setScene(longer), "are required");

@@ -264,6 +264,24 @@ def test_slots_and_vehicles():
     assert moved.start == (-6, 2, 0.1) and moved.goals == [(0, 5, 0)] and moved.slot is None
 
 
+def test_a_body_may_be_any_polygon():
+    forklift = ia.Scenario.read(os.path.join(os.environ['PARKING_SOURCE_DIR'], 'examples', 'forklift.yaml'))
+    car = forklift.vehicle
+    assert car.outline.shape == (14, 2) and car.rear_overhang == 1.6 and car.width == pytest.approx(1.1)
+    assert car.footprint((0, 0, 0)) == pytest.approx(car.outline)
+    copy = pickle.loads(pickle.dumps(forklift))
+    assert (copy.vehicle.outline == car.outline).all()
+    result = ia.plan(forklift, time_limit=60)
+    assert result and ia.check(forklift, result)
+    assert not result.trajectory_info['fallback'] and forklift.is_free(result.trajectory[:, 1:4]).all()
+    # Clockwise corners are reversed; other lengths make a rectangle of the body.
+    same = ia.Vehicle(wheelbase=1.4, outline=car.outline[::-1], max_steering_angle=1.2)
+    assert same.outline == pytest.approx(car.outline) and same.front_overhang == pytest.approx(0.4)
+    assert len(ia.Vehicle().outline) == 0
+    assert not ia.plan(forklift.replace(vehicle=ia.Vehicle(wheelbase=1.4, front_overhang=0.4, rear_overhang=1.6,
+                                                           width=1.1, max_steering_angle=1.2)))
+
+
 def test_the_parking_planner_plans_smooth_ways():
     plan = ia.ParkingPlanner().plan(scenario('perpendicular'))
     assert plan and plan.found and plan.is_smooth and plan.status == 'found'

@@ -270,15 +270,15 @@ TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)
         for (const double gap : {-1e-7, -1e-10, 0.0, 1e-12, 4e-10, 6e-10, 9e-10, 1e-7})
         {
             int made = 0, asked = 0;
-            const ContactTestMaker maker = [&](const ObstacleSet &, double halfLength, double halfWidth)
+            const ContactTestMaker maker = [&](const ObstacleSet &, const Body &body)
             {
                 ++made;
-                EXPECT_DOUBLE_EQ(halfLength, 0.5 * vehicle.length());
-                EXPECT_DOUBLE_EQ(halfWidth, 0.5 * vehicle.width);
-                return [&](const OrientedBox &body)
+                EXPECT_DOUBLE_EQ(body.halfLength, 0.5 * vehicle.length());
+                EXPECT_DOUBLE_EQ(body.halfWidth, 0.5 * vehicle.width);
+                return [&](const OrientedBox &box)
                 {
                     ++asked;
-                    EXPECT_DOUBLE_EQ(body.halfLength, 0.5 * vehicle.length());
+                    EXPECT_DOUBLE_EQ(box.halfLength, 0.5 * vehicle.length());
                     return answer;
                 };
             };

@@ -78,6 +78,22 @@ namespace parking
         }
     }
 
+    std::vector<ConvexPiece> partsOf(const Body &body)
+    {
+        const double front = body.centreOffset + body.halfLength, rear = body.centreOffset - body.halfLength;
+        const double half = body.halfWidth;
+        if (body.pieces.empty())
+            return {ConvexPiece({{front, -half}, {front, half}, {rear, half}, {rear, -half}})};
+        std::vector<ConvexPiece> parts;
+        for (Polygon &piece : body.polygons())
+        {
+            for (Eigen::Vector2d &corner : piece)
+                corner.x() += body.centreOffset;
+            parts.emplace_back(std::move(piece));
+        }
+        return parts;
+    }
+
     std::vector<ConvexPiece> convexPieces(const ObstacleSet &obstacles)
     {
         std::vector<ConvexPiece> pieces;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "state_validity/Body.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace parking
 {
-    /** \brief A convex obstacle: its corners and the lines of its sides.
+    /** \brief A convex obstacle or part of a body: its corners and the lines of its sides.
 
         An obstacle that is hardly wider than a line or a point has the sides of its bounding rectangle. */
     struct ConvexPiece
@@ -24,6 +25,10 @@ namespace parking
             micrometre are removed. */
         explicit ConvexPiece(std::vector<Eigen::Vector2d> corners);
     };
+
+    /** \brief A body as convex parts in the frame of the car, whose origin is the middle of the rear axle. A rectangle
+       is one part with the sides front, left, rear and right. */
+    std::vector<ConvexPiece> partsOf(const Body &body);
 
     /** \brief The obstacles of a world as convex pieces, in its local frame. Four rectangles represent the outside of
         the bounds. Throws parking::Error as convexPieces() does. */

@@ -1,7 +1,6 @@
 #include "path_tracking/trajectory/program/Separation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -29,43 +28,48 @@ namespace parking
             ignored. */
         constexpr double IRRELEVANT = 1.5;
 
-        const std::array<Eigen::Vector2d, 4> SIDE_NORMALS{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0),
-                                                          Eigen::Vector2d(-1.0, 0.0), Eigen::Vector2d(0.0, -1.0)};
-
         bool isBehind(const ConvexPiece &piece, const Eigen::Vector2d &normal, double offset)
         {
             return std::all_of(piece.corners.begin(), piece.corners.end(),
                                [&](const Eigen::Vector2d &corner) { return normal.dot(corner) <= offset + 1e-9; });
         }
 
-        /** Calls \e visit with the choices at two neighbouring places for each piece whose line changes between. */
+        /** The bounding box of the parts of a body in the frame of the car. */
+        Box boundsOf(const std::vector<ConvexPiece> &body)
+        {
+            Box box = body.front().box;
+            for (const ConvexPiece &part : body)
+                box = {box.min.cwiseMin(part.box.min), box.max.cwiseMax(part.box.max)};
+            return box;
+        }
+
+        /** Calls \e visit with the choices at two neighbouring places for each pair whose line changes between. */
         template <class Choices, class Visit>
         void visitChanges(const Choices &atA, const Choices &atB, const Visit &visit)
         {
             auto left = atA.begin();
             for (const auto &choice : atB)
             {
-                while (left != atA.end() && left->piece < choice.piece)
+                while (left != atA.end() && left->isBefore(choice))
                     ++left;
-                if (left != atA.end() && left->piece == choice.piece && !(left->line == choice.line))
+                if (left != atA.end() && left->isOfPairOf(choice) && !(left->line == choice.line))
                     visit(*left, choice);
             }
         }
     }  // namespace
 
-    SeparationPlan::SeparationPlan(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
+    SeparationPlan::SeparationPlan(const std::vector<ConvexPiece> &pieces, const std::vector<ConvexPiece> &body,
                                    SeparationOptions options, std::vector<GuessedCheckpoint> checkpoints,
                                    const std::function<Pose(std::size_t, double)> &poseAt,
                                    const std::function<bool()> &interrupted)
       : pieces_(pieces),
-        vehicle_(vehicle),
+        body_(body),
         options_(std::move(options)),
-        isKnown_(pieces.size(), 0),
-        front_(vehicle.wheelbase + vehicle.frontOverhang),
-        rear_(vehicle.rearOverhang),
-        half_(0.5 * vehicle.width),
-        reach_(std::hypot(0.5 * vehicle.length(), half_))
+        isKnown_(pieces.size(), 0)
     {
+        const Box ofBody = boundsOf(body_);
+        middle_ = 0.5 * (ofBody.min + ofBody.max);
+        reach_ = 0.5 * ofBody.size().norm();
         for (const std::size_t i : options_.known)
             isKnown_[i] = 1;
         Box region{{INF, INF}, {-INF, -INF}};
@@ -74,7 +78,7 @@ namespace parking
             region.min = region.min.cwiseMin(Eigen::Vector2d(point.pose.x, point.pose.y));
             region.max = region.max.cwiseMax(Eigen::Vector2d(point.pose.x, point.pose.y));
         }
-        const double reach = options_.range + reach_ + std::abs(vehicle.centreOffset());
+        const double reach = options_.range + reach_ + middle_.norm();
         for (std::size_t i = 0; i < pieces_.size(); ++i)
         {
             const Box &box = pieces_[i].box;
@@ -106,37 +110,38 @@ namespace parking
         return isComplete_;
     }
 
-    double SeparationPlan::gap(const Place &place, const Separator &line, std::size_t piece) const
+    double SeparationPlan::gap(const Place &place, const Separator &line, std::size_t part, std::size_t piece) const
     {
         const Pose &pose = place.point.pose;
         const double c = place.cosine, s = place.sine;
+        double least = INF;
         if (!line.ofBody)
         {
             const Eigen::Vector2d &n = pieces_[line.piece].normals[line.side];
             const double along = c * n.x() + s * n.y(), across = c * n.y() - s * n.x();
-            return n.x() * pose.x + n.y() * pose.y + (along < 0.0 ? along * front_ : -along * rear_) -
-                   std::abs(across) * half_ - pieces_[line.piece].offsets[line.side];
+            for (const Eigen::Vector2d &corner : body_[part].corners)
+                least = std::min(least, along * corner.x() + across * corner.y());
+            return n.x() * pose.x + n.y() * pose.y + least - pieces_[line.piece].offsets[line.side];
         }
-        const Eigen::Vector2d &m = SIDE_NORMALS[line.side];
+        const Eigen::Vector2d &m = body_[part].normals[line.side];
         const double nx = c * m.x() - s * m.y(), ny = s * m.x() + c * m.y();
-        double least = INF;
         for (const Eigen::Vector2d &corner : pieces_[piece].corners)
             least = std::min(least, nx * (corner.x() - pose.x) + ny * (corner.y() - pose.y));
-        return least - (line.side == 0 ? front_ : line.side == 2 ? rear_ : half_);
+        return least - body_[part].offsets[line.side];
     }
 
-    SeparationPlan::Choice SeparationPlan::best(const Place &place, std::size_t piece) const
+    SeparationPlan::Choice SeparationPlan::best(const Place &place, std::size_t part, std::size_t piece) const
     {
-        Choice choice{piece, {}, -INF};
+        Choice choice{part, piece, {}, -INF};
         const auto consider = [&](const Separator &line)
         {
-            const double value = gap(place, line, piece);
+            const double value = gap(place, line, part, piece);
             if (value > choice.gap)
-                choice = {piece, line, value};
+                choice = {part, piece, line, value};
         };
         for (std::size_t side = 0; side < pieces_[piece].normals.size(); ++side)
             consider({false, piece, side});
-        for (std::size_t side = 0; side < 4; ++side)
+        for (std::size_t side = 0; side < body_[part].normals.size(); ++side)
             consider({true, 0, side});
         return choice;
     }
@@ -161,46 +166,64 @@ namespace parking
     SeparationPlan::Place SeparationPlan::makePlace(const GuessedCheckpoint &point, const Place *before) const
     {
         Place place{point, std::cos(point.pose.yaw), std::sin(point.pose.yaw), {}, {}};
-        const double offset = vehicle_.centreOffset();
-        const Eigen::Vector2d middle(point.pose.x + offset * place.cosine, point.pose.y + offset * place.sine);
-        auto old = before != nullptr ? before->choices.begin() : std::vector<Choice>::const_iterator();
+        const Eigen::Vector2d middle(point.pose.x + middle_.x() * place.cosine - middle_.y() * place.sine,
+                                     point.pose.y + middle_.x() * place.sine + middle_.y() * place.cosine);
         const double farthest = options_.range + reach_;
         const Eigen::Vector2d far(farthest, farthest);
+        std::vector<std::size_t> near;
         for (const std::size_t i : candidatesWithin({middle - far, middle + far}))
         {
             const Box &box = pieces_[i].box;
             const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);
             const double range = isKnown_[i] != 0 ? KNOWN_RANGE : options_.range;
-            if (off.squaredNorm() > (range + reach_) * (range + reach_))
-                continue;
-            Choice choice = best(place, i);
-            if (before != nullptr)
-            {
-                while (old != before->choices.end() && old->piece < i)
-                    ++old;
-                if (old != before->choices.end() && old->piece == i && !(old->line == choice.line))
-                {
-                    const double kept = gap(place, old->line, i);
-                    if (kept >= KEEP * choice.gap && kept > 0.0)
-                        choice = {i, old->line, kept};
-                }
-            }
-            if (choice.gap < range)
-                place.choices.push_back(choice);
+            if (off.squaredNorm() <= (range + reach_) * (range + reach_))
+                near.push_back(i);
         }
-        share(place);
+        for (std::size_t part = 0; part < body_.size(); ++part)
+        {
+            addChoices(place, part, near, before);
+            share(place, part);
+        }
         return place;
     }
 
-    void SeparationPlan::share(Place &place) const
+    /** Adds the lines between a part of the body and the candidates. A line of the previous place is kept if it is
+        nearly as good. */
+    void SeparationPlan::addChoices(Place &place, std::size_t part, const std::vector<std::size_t> &candidates,
+                                    const Place *before) const
+    {
+        auto old = before != nullptr ? before->choices.begin() : std::vector<Choice>::const_iterator();
+        for (const std::size_t i : candidates)
+        {
+            Choice choice = best(place, part, i);
+            if (before != nullptr)
+            {
+                while (old != before->choices.end() && old->isBefore(choice))
+                    ++old;
+                if (old != before->choices.end() && old->isOfPairOf(choice) && !(old->line == choice.line))
+                {
+                    const double kept = gap(place, old->line, part, i);
+                    if (kept >= KEEP * choice.gap && kept > 0.0)
+                        choice = {part, i, old->line, kept};
+                }
+            }
+            if (choice.gap < (isKnown_[i] != 0 ? KNOWN_RANGE : options_.range))
+                place.choices.push_back(choice);
+        }
+    }
+
+    /** Lets the choices of a part share lines. */
+    void SeparationPlan::share(Place &place, std::size_t part) const
     {
         // Nearest first: these lines also separate the pieces behind them.
-        std::vector<std::size_t> order(place.choices.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
+        const auto first = std::find_if(place.choices.begin(), place.choices.end(),
+                                        [part](const Choice &choice) { return choice.part == part; });
+        std::vector<std::size_t> order(static_cast<std::size_t>(place.choices.end() - first));
+        std::iota(order.begin(), order.end(), static_cast<std::size_t>(first - place.choices.begin()));
         std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t a, std::size_t b) { return place.choices[a].gap < place.choices[b].gap; });
         std::vector<Separator> lines;
-        std::array<bool, 4> bodySides{};
+        std::vector<std::uint8_t> bodySides(body_[part].normals.size(), 0);
         for (const std::size_t i : order)
         {
             Choice &choice = place.choices[i];
@@ -216,11 +239,12 @@ namespace parking
                 continue;
             }
             // An already used side of the body suffices if it is nearly as good.
-            for (std::size_t side = 0; side < 4 && !choice.line.ofBody; ++side)
-                if (bodySides[side] && gap(place, {true, 0, side}, choice.piece) >= SERVES * std::abs(choice.gap))
+            for (std::size_t side = 0; side < bodySides.size() && !choice.line.ofBody; ++side)
+                if (bodySides[side] != 0 &&
+                    gap(place, {true, 0, side}, part, choice.piece) >= SERVES * std::abs(choice.gap))
                     choice.line = {true, 0, side};
             if (choice.line.ofBody)
-                bodySides[choice.line.side] = true;
+                bodySides[choice.line.side] = 1;
             else
                 lines.push_back(choice.line);
         }
@@ -242,8 +266,8 @@ namespace parking
                 visitChanges(a.choices, b.choices,
                              [&](const Choice &atA, const Choice &atB)
                              {
-                                 const double there = a.point.fixed ? -INF : gap(a, atB.line, atB.piece);
-                                 const double here = b.point.fixed ? -INF : gap(b, atA.line, atA.piece);
+                                 const double there = a.point.fixed ? -INF : gap(a, atB.line, atB.part, atB.piece);
+                                 const double here = b.point.fixed ? -INF : gap(b, atA.line, atA.part, atA.piece);
                                  between = between || std::max(there, here) < -WORST_SWITCH;
                              });
             }
@@ -270,26 +294,27 @@ namespace parking
             visitChanges(a.choices, b.choices,
                          [&](const Choice &atA, const Choice &atB)
                          {
-                             const std::size_t piece = atA.piece;
-                             const double there = gap(a, atB.line, piece), here = gap(b, atA.line, piece);
+                             const std::size_t part = atA.part, piece = atA.piece;
+                             const double there = gap(a, atB.line, part, piece);
+                             const double here = gap(b, atA.line, part, piece);
                              const double margin = margins_[piece];
                              if ((a.point.fixed && there >= margin) || (b.point.fixed && here >= margin))
                                  return;
                              if (b.point.fixed || (!a.point.fixed && there >= here))
-                                 a.extra.push_back({piece, atB.line, there});
+                                 a.extra.push_back({part, piece, atB.line, there});
                              else
-                                 b.extra.push_back({piece, atA.line, here});
+                                 b.extra.push_back({part, piece, atA.line, here});
                          });
         }
     }
 
-    void SeparationPlan::addBodySide(const Place &place, std::size_t side, const std::vector<std::size_t> &pieces,
-                                     std::vector<BodyRow> &rows) const
+    void SeparationPlan::addBodySide(const Place &place, std::size_t part, std::size_t side,
+                                     const std::vector<std::size_t> &pieces, std::vector<BodyRow> &rows) const
     {
         const Pose &pose = place.point.pose;
-        const Eigen::Vector2d &m = SIDE_NORMALS[side];
+        const Eigen::Vector2d &m = body_[part].normals[side];
         const Eigen::Vector2d out(place.cosine * m.x() - place.sine * m.y(), place.sine * m.x() + place.cosine * m.y());
-        const double distance = side == 0 ? front_ : side == 2 ? rear_ : half_;
+        const double distance = body_[part].offsets[side];
         /** A corner with its positions along and beyond the side. */
         struct Corner
         {
@@ -345,12 +370,14 @@ namespace parking
         }
     }
 
-    void SeparationPlan::addRows(const Place &place, std::vector<BodyRow> &rows) const
+    void SeparationPlan::addRows(const Place &place, std::size_t part, std::vector<BodyRow> &rows) const
     {
         std::vector<Separator> lines;
-        std::array<std::vector<std::size_t>, 4> bodySides;
+        std::vector<std::vector<std::size_t>> bodySides(body_[part].normals.size());
         const auto collect = [&](const Choice &choice)
         {
+            if (choice.part != part)
+                return;
             if (choice.line.ofBody)
             {
                 auto &side = bodySides[choice.line.side];
@@ -363,26 +390,27 @@ namespace parking
         std::for_each(place.choices.begin(), place.choices.end(), collect);
         std::for_each(place.extra.begin(), place.extra.end(), collect);
         const Pose &pose = place.point.pose;
+        std::vector<BodyRow> candidates;
         for (const Separator &line : lines)
         {
-            std::array<BodyRow, 4> candidates;
-            std::array<double, 4> values{};
-            for (std::size_t k = 0; k < 4; ++k)
+            candidates.clear();
+            double least = INF;
+            for (const Eigen::Vector2d &corner : body_[part].corners)
             {
-                BodyRow &row = candidates[k];
+                BodyRow row;
                 row.normal = pieces_[line.piece].normals[line.side];
                 row.offset = pieces_[line.piece].offsets[line.side] + margins_[line.piece];
-                row.point = {k < 2 ? front_ : -rear_, k == 0 || k == 3 ? half_ : -half_};
-                values[k] = row.value(pose.x, pose.y, place.cosine, place.sine);
+                row.point = corner;
+                least = std::min(least, row.value(pose.x, pose.y, place.cosine, place.sine));
+                candidates.push_back(row);
             }
-            const double least = *std::min_element(values.begin(), values.end());
-            for (std::size_t k = 0; k < 4; ++k)
-                if (values[k] <= least + IRRELEVANT)
-                    rows.push_back(candidates[k]);
+            for (const BodyRow &row : candidates)
+                if (row.value(pose.x, pose.y, place.cosine, place.sine) <= least + IRRELEVANT)
+                    rows.push_back(row);
         }
-        for (std::size_t side = 0; side < 4; ++side)
+        for (std::size_t side = 0; side < bodySides.size(); ++side)
             if (!bodySides[side].empty())
-                addBodySide(place, side, bodySides[side], rows);
+                addBodySide(place, part, side, bodySides[side], rows);
     }
 
     void SeparationPlan::write(MotionProblem &problem) const
@@ -399,7 +427,8 @@ namespace parking
             if (place.point.fixed)
                 continue;
             const std::size_t first = problem.rows.size();
-            addRows(place, problem.rows);
+            for (std::size_t part = 0; part < body_.size(); ++part)
+                addRows(place, part, problem.rows);
             if (problem.rows.size() > first)
                 problem.checkpoints.push_back(
                     {place.point.interval, place.point.fraction, first, problem.rows.size(),
@@ -415,11 +444,11 @@ namespace parking
         return near;
     }
 
-    std::vector<std::size_t> piecesNear(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
+    std::vector<std::size_t> piecesNear(const std::vector<ConvexPiece> &pieces, const std::vector<ConvexPiece> &body,
                                         const Pose &pose, double range)
     {
         SeparationOptions options;
         options.range = range;
-        return SeparationPlan(pieces, vehicle, options, {{0, 0.0, pose, true}}, {}).nearFirst();
+        return SeparationPlan(pieces, body, options, {{0, 0.0, pose, true}}, {}).nearFirst();
     }
 }  // namespace parking

@@ -101,7 +101,7 @@ namespace
         const QueryWorld full =
             queryWorld("full", {{{-50, -50}, {50, -50}, {50, 50}, {-50, 50}}}, vehicleByName("vw_golf8"));
         EXPECT_FALSE(drawQuery(full, random, 0.0, false));
-        EXPECT_THROW(worldsOf(PARKING_SOURCE_DIR "/examples", ""), Error);
+        EXPECT_THROW(worldsOf(PARKING_SOURCE_DIR "/examples/python", ""), Error);
         EXPECT_THROW(worldsOf("/nowhere", ""), Error);
     }
 }  // namespace

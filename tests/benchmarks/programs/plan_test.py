@@ -7,7 +7,7 @@ import re
 import subprocess
 import xml.etree.ElementTree
 
-from programs import PLAN, ProgramTest, bundled, bundled_scenarios, main
+from programs import PLAN, SOURCE, ProgramTest, bundled, bundled_scenarios, main
 
 UNSOLVABLE = {'unreachable'}
 MAX_GAP = 0.1 + 1e-9  # metres between states of a path
@@ -78,6 +78,20 @@ class Bundled(ProgramTest):
                 last = result['path'][-1]
                 ends = [{key: last[key] for key in ('x', 'y', 'yaw')}]
                 self.assertEqual(ends[0] in result['goals'], solvable)
+
+    def test_a_forklift_drives_its_forks_into_a_pallet(self):
+        forklift = os.path.join(SOURCE, 'examples', 'forklift.yaml')
+        result = self.planned(forklift, '--trajectory')
+        self.assertEqual((result['status'], len(result['vehicle']['outline'])), ('exact', 14))
+        self.check_path(result)
+        # A body without gaps between its forks does not fit.
+        with open(forklift) as stream:
+            text = stream.read()
+        start = text.index('  outline:')
+        rectangle = '  front_overhang: 0.4\n  rear_overhang: 1.6\n  width: 1.1\n'
+        self.write('rectangle.yaml', text[:start] + rectangle + text[text.index('  max_steering_angle'):])
+        refused = self.planned('rectangle.yaml', status=3)
+        self.assertIn('in collision at the goal', refused['reason'])
 
     def test_at_weight_one_the_bound_on_suboptimality_is_reported(self):
         self.assertIsNone(self.planned(bundled('perpendicular'))['search']['suboptimality_bound'])

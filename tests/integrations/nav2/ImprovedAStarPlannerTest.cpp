@@ -45,8 +45,7 @@ namespace
     protected:
         Nav2Planner()
         {
-            planner->configure(node, "Parking", std::make_shared<tf2_ros::Buffer>(),
-                               std::make_shared<nav2_costmap_2d::Costmap2DROS>(costmap));
+            planner->configure(node, "Parking", std::make_shared<tf2_ros::Buffer>(), ros);
             planner->activate();
         }
 
@@ -94,6 +93,7 @@ namespace
         }
 
         nav2_costmap_2d::Costmap2D costmap{300, 200, RESOLUTION, -10.0, -5.0};
+        std::shared_ptr<nav2_costmap_2d::Costmap2DROS> ros{std::make_shared<nav2_costmap_2d::Costmap2DROS>(costmap)};
         std::shared_ptr<compatibility::Node> node{std::make_shared<compatibility::Node>()};
         std::unique_ptr<nav2_core::GlobalPlanner> planner{makePlugin()};
         std::function<bool()> cancelled{[]
@@ -165,6 +165,26 @@ namespace
         set("heading_bins", std::int64_t(72));
         set("margin", -1.0);
         expectRefusal<compatibility::PlannerException>(start, goal, "margin must be between 0 and 10");
+    }
+
+    TEST_F(Nav2Planner, TheFootprintOfTheCostmapCanBeTheBody)
+    {
+        // The gap of the test above: too narrow for the car, wide enough for a slim polygon.
+        fill(2.0, -5.0, 3.0, 4.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        fill(2.0, 6.0, 3.0, 15.0, nav2_costmap_2d::LETHAL_OBSTACLE);
+        set("use_robot_footprint", true);
+        expectRefusal<compatibility::PlannerException>(start, goal, "the costmap has no footprint");
+        for (const auto &[x, y] : {std::pair(-0.9, 0.0), {0.0, -0.8}, {3.5, -0.6}, {3.7, 0.0}, {3.5, 0.6}, {0.0, 0.8}})
+        {
+            geometry_msgs::msg::Point corner;
+            corner.x = x;
+            corner.y = y;
+            ros->footprint.push_back(corner);
+        }
+        EXPECT_FALSE(plan(start, goal).poses.empty());
+        ros->footprint.pop_back();
+        ros->footprint.back() = ros->footprint.front();
+        expectRefusal<compatibility::PlannerException>(start, goal, "outline");
     }
 
     TEST_F(Nav2Planner, AWrongParameterIsRefusedAtOnce)

@@ -270,6 +270,25 @@ TEST_F(YamlReader, ReadsAVehicleGivenByItsFieldsOrAFile)
                     {"example.yaml:3", "front_overhang", "vehicle"});
     expectYamlError(with(SCENARIO, "vehicle: vw_golf8", with(fields, "width: 1.7", "width: 0")),
                     {"example.yaml:3: ", "width is 0"});
+    const std::string outline =
+        "vehicle: {wheelbase: 1.4, max_steering_angle: 1.2, "
+        "outline: [[-0.5, -0.6], [-0.5, 0.4], [1.7, 0.4], [1.7, -0.6]]}";
+    const Vehicle outlined = read(with(SCENARIO, "vehicle: vw_golf8", outline)).vehicle;
+    EXPECT_EQ(outlined.outline.size(), 4u);
+    EXPECT_GT(signedArea(outlined.outline), 0.0);
+    EXPECT_EQ(outlined.rearOverhang, 0.5);
+    EXPECT_EQ(outlined.width, 1.2);
+    const auto expectOutlineError = [&](const std::string &old, const std::string &fresh, const std::string &part)
+    {
+        expectYamlError(with(SCENARIO, "vehicle: vw_golf8", with(outline, old, fresh)), {"example.yaml:3: ", part});
+    };
+    expectOutlineError("1.4, ", "1.4, width: 1.3, ", "width is 1.3; it must be 1.2 m");
+    expectOutlineError("[1.7, -0.6]]", "[1.7, 0.4]]", "nearer than 1 mm");
+    expectOutlineError("[-0.5, -0.6], ", "[1, 1], ", "crosses itself");
+    expectOutlineError("[-0.5, -0.6], ", "[1], ", "a corner of outline");
+    expectOutlineError("[-0.5, -0.6], ", "[.nan, 1], ", "a corner of outline");
+    expectOutlineError("[[-0.5, -0.6], [-0.5, 0.4], [1.7, 0.4], [1.7, -0.6]]", "[]", "outline has no corners");
+    expectOutlineError("[[-0.5, -0.6], [-0.5, 0.4], [1.7, 0.4], [1.7, -0.6]]", "3", "outline");
     expectYamlError(with(SCENARIO, "vw_golf8", "vw_golf9"), {"example.yaml:3", "'vw_golf9'", "'vw_golf8'"});
     expectYamlError(with(SCENARIO, "vw_golf8", "cars/none.yaml"), {"none.yaml", "No such file"});
 }

@@ -14,7 +14,7 @@ namespace parking
         /** A drive straight ahead past many boxes. */
         struct Drive
         {
-            Vehicle car;
+            std::vector<ConvexPiece> body = partsOf(Body({}, 0.0));
             std::vector<ConvexPiece> pieces;
             std::vector<GuessedCheckpoint> checkpoints;
 
@@ -39,7 +39,7 @@ namespace parking
         TEST(Separation, RowsHoldWhereTheGuessIsFree)
         {
             const Drive drive;
-            const SeparationPlan plan(drive.pieces, drive.car, {}, drive.checkpoints, Drive::poseAt);
+            const SeparationPlan plan(drive.pieces, drive.body, {}, drive.checkpoints, Drive::poseAt);
             EXPECT_TRUE(plan.isComplete());
             MotionProblem problem;
             plan.write(problem);

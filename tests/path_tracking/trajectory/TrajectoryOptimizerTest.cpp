@@ -1,4 +1,6 @@
+#include "benchmarks/worlds/OutlinedVehicles.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/referee/Referee.h"
 #include "path_tracking/trajectory/MotionCheck.h"
 #include "path_tracking/trajectory/StopAndSteer.h"
 #include "path_tracking/trajectory/TrajectoryOptimizer.h"
@@ -194,6 +196,46 @@ namespace parking
                 ++all;
             }
             EXPECT_GE(optimised + 1, all);
+            EXPECT_LT(after, 0.6 * before);
+        }
+
+        TEST(TrajectoryOptimizer, BodiesWithOutlinesTouchNothingEither)
+        {
+            std::size_t optimised = 0, all = 0, obstacles = 0;
+            double before = 0.0, after = 0.0;
+            for (const Vehicle &car : parking_test::outlinedVehicles())
+                for (std::uint64_t seed = 1; seed <= 4; ++seed)
+                {
+                    const Path path =
+                        seed % 2 == 0 ? test::randomReedsShepp(seed, 10.0) : test::randomLattice(seed, 10.0);
+                    Random random(seed);
+                    const SampledPath states = path.sample(0.1);
+                    Scenario scenario;
+                    scenario.vehicle = car;
+                    scenario.bounds = test::WIDE;
+                    for (int i = 0; i < 60; ++i)
+                    {
+                        const Pose &near = states[random.index(states.size())].pose;
+                        Scenario alone = scenario;
+                        alone.polygons = {box(near.x + random.between(-3.0, 3.0), near.y + random.between(-3.0, 3.0),
+                                              random.between(0.1, 2.0), random.between(0.1, 1.0),
+                                              random.between(-PI, PI))};
+                        if (Referee(alone).minClearance(path) > 0.02)
+                            scenario.polygons.push_back(alone.polygons.front());
+                    }
+                    obstacles += scenario.polygons.size();
+                    const FootprintChecker checker = checkerOf(scenario.polygons, car);
+                    const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path);
+                    const FreeSpace space(scenario);
+                    for (const TrajectoryPoint &point : sample(found.motion, car, 0.01))
+                        ASSERT_TRUE(space.isFree({point.x, point.y, point.yaw})) << seed << " at " << point.t;
+                    optimised += found.fallback ? 0 : 1;
+                    before += stopAndSteer(path, car, 0.0, 0.0).duration();
+                    after += found.motion.duration();
+                    ++all;
+                }
+            EXPECT_GT(obstacles, 10 * all);
+            EXPECT_GE(optimised + 2, all);
             EXPECT_LT(after, 0.6 * before);
         }
 

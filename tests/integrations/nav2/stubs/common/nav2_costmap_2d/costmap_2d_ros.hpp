@@ -1,6 +1,7 @@
 #pragma once
 // A stub of ours with the names that the plugin uses; the real header comes with ROS 2.
 
+#include <geometry_msgs/msg/pose_stamped.hpp>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -73,10 +74,16 @@ namespace nav2_costmap_2d
         {
             return &costmap_;
         }
+        std::vector<geometry_msgs::msg::Point> getRobotFootprint() const
+        {
+            return footprint;
+        }
         std::string getGlobalFrameID() const
         {
             return "map";
         }
+
+        std::vector<geometry_msgs::msg::Point> footprint;
 
     private:
         Costmap2D &costmap_;
