@@ -182,8 +182,7 @@ namespace parking
 
             void addOutline(const TrajectoryOptimizer &owner)
             {
-                outline.emplace(
-                    owner.outline(guessesAlong(local, owner.body_, owner.options_.initialSpeed), step));
+                outline.emplace(owner.outline(guessesAlong(local, owner.body_, owner.options_.initialSpeed), step));
             }
 
             Path local;  // in the coordinates of the pieces
