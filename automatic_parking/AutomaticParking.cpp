@@ -226,7 +226,8 @@ namespace parking
             {
                 note(std::string("the car stops to steer: ") + error.what());
             }
-            if (leg.trajectory && leg.trajectory->trajectory.fallback)
+            // In a changing world its motion is followed as any other, so that another one may continue it.
+            if (leg.trajectory && leg.trajectory->trajectory.fallback && !update_ && !seen_)
             {
                 note("the car stops to steer: " + leg.trajectory->trajectory.reason);
                 leg.trajectory.reset();

@@ -7,7 +7,6 @@
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 
-#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/util/Exception.h>
 
@@ -232,11 +231,6 @@ namespace parking
                                                    const PlannerParameters &parameters)
     {
         PlannerParameters result = parameters;
-        if (exactly<ob::MaximizeMinClearanceObjective>(objective) != nullptr)
-        {
-            result.clearanceCost = parameterNamed("clearance_cost").values.max;
-            return result;
-        }
         Sum sum;
         sum.add(objective, 1.0);
         if (!sum.isKnown || !(sum.length > 0.0 && std::isfinite(sum.length)))

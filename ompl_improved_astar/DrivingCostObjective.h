@@ -77,9 +77,9 @@ namespace parking
 
     /** \brief The parameters with which ImprovedAStar searches by \e objective: \e parameters with other weights.
 
-        A path length or a DrivingCostObjective determines all weights, and so does a sum of these. For
-        MaximizeMinClearanceObjective the clearance cost is at its maximum. Returns std::nullopt for any other
-        objective, for classes derived from these, and for sums with a negative weight or two preferred clearances. */
+        A path length or a DrivingCostObjective determines all weights, and so does a sum of these. Returns
+        std::nullopt for any other objective, for classes derived from these, and for sums with a negative weight or two
+        preferred clearances. */
     std::optional<PlannerParameters> parametersFor(const ompl::base::OptimizationObjectivePtr &objective,
                                                    const PlannerParameters &parameters);
 }  // namespace parking

@@ -56,11 +56,11 @@ PROBLEM_FORMATS = [
                   bench_mr.read, bench_mr.svg_text),
     ProblemFormat('parkbench', '.json', 'scenes of ParkBench, without a car; read only', 16 * MEBIBYTE,
                   parkbench.is_scene, parkbench.read, None),
-    ProblemFormat('omplapp', '.cfg', 'planar problems of OMPL.app\'s ompl_benchmark, with their meshes (only read)',
+    ProblemFormat('omplapp', '.cfg', 'planar problems of ompl_benchmark, with their meshes; read only',
                   MEBIBYTE, omplapp.recognizes, omplapp.read, None),
     ProblemFormat('tpcap', '.csv', 'cases of TPCAP, without a car; default: TPCAP\'s car',
                   16 * MEBIBYTE, lambda content: False, own.read, own.tpcap_text),
-    ProblemFormat('yaml', '.yaml', 'scenarios of this project, with the maps and voxels that they name', 16 * MEBIBYTE,
+    ProblemFormat('yaml', '.yaml', 'scenarios of this project, with the maps and voxels they name', 16 * MEBIBYTE,
                   lambda content: True, own.read, own.yaml_text),
 ]
 RESULT_FORMATS = [

@@ -181,8 +181,7 @@ namespace parking
 
             void addOutline(const TrajectoryOptimizer &owner)
             {
-                outline.emplace(
-                    owner.outline(guessesAlong(local, owner.vehicle_, owner.options_.initialSpeed), step));
+                outline.emplace(owner.outline(guessesAlong(local, owner.vehicle_, owner.options_.initialSpeed), step));
             }
 
             Path local;  // in the coordinates of the pieces

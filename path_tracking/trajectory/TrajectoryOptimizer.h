@@ -40,11 +40,11 @@ namespace parking
         bool sharpest{true};
 
         std::optional<double> initialSteering{0.0};  ///< radians at the start; if absent, the initial steering is free
-        /** Speed at the start in m/s, in the direction of the path's first stretch. A moving car has an initial steering
-            angle, and no motion by stopAndSteer(). */
+        /** Speed at the start in m/s, in the direction of the path's first stretch. A moving car has an initial
+           steering angle, and no motion by stopAndSteer(). */
         double initialSpeed{0.0};
-        std::optional<double> finalSteering{0.0};    ///< radians at the end; if absent, the final steering is free
-        std::size_t maxRounds{6};                    ///< maximum number of attempts along a path, and of improvements
+        std::optional<double> finalSteering{0.0};  ///< radians at the end; if absent, the final steering is free
+        std::size_t maxRounds{6};                  ///< maximum number of attempts along a path, and of improvements
 
         /** \brief Weights of the Trajectory Planning Competition of Automated Parking, divided by 100. */
         static MotionWeights tpcapWeights()
@@ -59,7 +59,7 @@ namespace parking
     /** \brief Result of optimising a trajectory. */
     struct OptimizedTrajectory
     {
-        TimedMotion motion;         ///< collision-free, within the limits
+        TimedMotion motion;  ///< collision-free, within the limits
         /** Whether the motion is that of stopAndSteer(). For a moving start it is then empty. */
         bool fallback{false};
         std::string reason;         ///< why no better motion was found; empty otherwise

@@ -84,6 +84,7 @@ namespace
             return parking.park(scenario);
         };
         ParkingParameters parameters;
+        parameters.reactionTime = 0.0;
         parameters.drive.disturbances.delay = 0.2;
         const ParkingResult calm = parkWith(parameters);
         ASSERT_TRUE(calm.parked()) << calm.message;

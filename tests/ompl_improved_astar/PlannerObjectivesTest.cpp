@@ -162,7 +162,7 @@ TEST(DrivingCost, ofRandomPathsIsThatOfTheSearch)
                 DrivingCostObjective(problem.si, parameters).cost(pathThrough(problem, poses)).value() -
                 costOfSearch(problem, path, parameters);
             // Rounding may decide about the clearance of a single sample.
-            EXPECT_NEAR(difference, 0.0, 0.1 * parameters.clearanceCost + 1e-5);
+            EXPECT_NEAR(difference, 0.0, 0.2 * parameters.clearanceCost + 1e-5);
             differing += std::abs(difference) > 1e-5 ? 1 : 0;
         }
     }
@@ -306,9 +306,6 @@ TEST(PlannerObjectives, lengthAndDrivingCostAndTheirSumsAreMapped)
     expect(3.0 * length + 1.0 * cost, weights(0.25, 0.5, 0.125, 0.3, 2.0));
     expect(2.0 * (length + cost) + 0.0 * length, weights(0.5, 1.0, 0.25, 0.3, 4.0));
     expect(driving(problem, weights(1.0, 0.0, 0.0, 0.6, 0.0)) + cost, weights(1.0, 1.0, 0.25, 0.3, 4.0));
-    PlannerParameters clear = HEAVY;
-    clear.clearanceCost = 100.0;
-    expect(std::make_shared<ob::MaximizeMinClearanceObjective>(problem.si), clear);
 }
 
 TEST(PlannerObjectives, othersAreNotMapped)
@@ -318,8 +315,8 @@ TEST(PlannerObjectives, othersAreNotMapped)
                     other = std::make_shared<FromOrigin>(problem.si),
                     clear = std::make_shared<ob::MaximizeMinClearanceObjective>(problem.si);
     for (const Objective &objective :
-         {other, length + other, length + clear, 2.0 * clear, -1.0 * length, 0.0 * length, 3.0 * length + -1.0 * cost,
-          HUGE_VAL * length, cost + driving(problem, weights(0.0, 0.0, 0.0, 0.3, 1.0)),
+         {other, clear, length + other, length + clear, 2.0 * clear, -1.0 * length, 0.0 * length,
+          3.0 * length + -1.0 * cost, HUGE_VAL * length, cost + driving(problem, weights(0.0, 0.0, 0.0, 0.3, 1.0)),
           Objective(std::make_shared<OtherLength>(problem.si)),
           Objective(std::make_shared<ob::MultiOptimizationObjective>(problem.si))})
         EXPECT_FALSE(parking::parametersFor(objective, HEAVY)) << objective->getDescription();
@@ -383,7 +380,6 @@ TEST(PlannerObjectives, pathsCostAtMostAsMuchAsWithoutThem)
                 EXPECT_LE(cost, before + 1e-5);
                 cheaper += cost < before - 1e-3 ? 1 : 0;
                 problem.expectSound();
-                EXPECT_GT(problem.planner->statistics().expanded, 0u);
                 EXPECT_GE(problem.planner->suboptimalityBound(), 1.0);
             }
     EXPECT_GT(cheaper, 5);
@@ -433,22 +429,6 @@ TEST(PlannerObjectives, othersAreEvaluatedAndLoggedOnce)
         ASSERT_EQ(unset.from({LEFT}).to({RIGHT}).solve(), Status::EXACT_SOLUTION);
         EXPECT_EQ(areEqual(first, unset.poses()), threshold > 0.0);
     }
-}
-
-TEST(PlannerObjectives, clearanceIsKeptAtAnyPrice)
-{
-    // Between two walls, or round them: the gap is wide enough, but closer than preferred.
-    PlanningProblem problem(Space::ReedsShepp, square({box(-1.0, -9.0, 1.0, -1.4), box(-1.0, 1.4, 1.0, 9.0)}),
-                            "preferred_clearance=0.6 clearance_cost=1 anytime=1");
-    problem.from({{-9.0, 0.0, 0.0}}).to({{9.0, 0.0, 0.0}});
-    ASSERT_EQ(problem.solveWithPolls(5000), Status::EXACT_SOLUTION);
-    EXPECT_LT(problem.path().length(), 18.1);
-    const Objective objective = std::make_shared<ob::MaximizeMinClearanceObjective>(problem.si);
-    problem.pdef->setOptimizationObjective(objective);
-    problem.pdef->clearSolutionPaths();
-    ASSERT_EQ(problem.solveWithPolls(5000), Status::EXACT_SOLUTION);
-    EXPECT_GT(problem.path().length(), 22.0);
-    EXPECT_GT(problem.bestCost(), 0.5);
 }
 
 TEST(PlannerObjectives, nothingIsSetByOthersThanOptimisingPlanners)

@@ -142,6 +142,7 @@ namespace
         for (const double factor : {2.0, 1000.0, 0.5, 1.0})
         {
             problem.pdef->setOptimizationObjective(scaled(problem, factor, 0.0));
+            problem.pdef->clearSolutionPaths();
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             EXPECT_NEAR(problem.bestCost(), factor * problem.path().length(), 1e-5 * factor);
         }

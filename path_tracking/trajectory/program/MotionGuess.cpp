@@ -138,9 +138,8 @@ namespace parking
     void StretchGuess::setSpeeds(const std::vector<double> &distances, const Vehicle &vehicle, double initialSpeed)
     {
         const double cap = vehicle.maxSpeed * vehicle.maxSpeed;
-        const std::vector<double> squared =
-            squaredSpeeds(distances, std::vector<double>(distances.size(), cap), vehicle.maxAcceleration,
-                          initialSpeed * initialSpeed);
+        const std::vector<double> squared = squaredSpeeds(distances, std::vector<double>(distances.size(), cap),
+                                                          vehicle.maxAcceleration, initialSpeed * initialSpeed);
         for (std::size_t i = 0; i < points_.size(); ++i)
             points_[i].speed = std::sqrt(squared[i]);
         points_.front().speed = initialSpeed;  // too fast for a short stretch, whose program then has no solution
