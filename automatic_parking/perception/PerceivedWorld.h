@@ -10,8 +10,8 @@ namespace parking
     /** \brief Layout of a perceived map. */
     struct PerceptionParameters
     {
-        double cellSize{0.1};         ///< side of the map's cells in metres
-        bool unseenIsOccupied{true};  ///< whether ground that has not been seen counts as an obstacle
+        double cellSize{0.1};          ///< side of the map's cells in metres
+        bool unseenIsOccupied{false};  ///< whether ground that has not been seen counts as an obstacle
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;

@@ -208,8 +208,8 @@ namespace
                                        return time >= 3.0;
                                    });
             EXPECT_TRUE(result.parked()) << result.message;
-            ASSERT_EQ(result.legs.size(), gap < 0.03 ? 2u : 1u);
-            EXPECT_EQ(result.legs.back().reason, gap < 0.03 ? "the map has changed" : "first plan");
+            EXPECT_EQ(result.legs.size(), 1u);
+            EXPECT_EQ(kindsOf(result).size(), gap < 0.03 ? 1u : 0u);
             EXPECT_GT(result.legs.back().plan.clearance, 0.03);
         }
     }
