@@ -23,8 +23,7 @@ namespace parking
         return std::shared_ptr<IndexedObstacles>(new IndexedObstacles(Copy{}, *this));
     }
 
-    std::shared_ptr<const EdgeIndex> IndexedObstacles::edges(double reach,
-                                                                const std::vector<BodyPiece> &pieces) const
+    std::shared_ptr<const EdgeIndex> IndexedObstacles::edges(double reach, const std::vector<BodyPiece> &pieces) const
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         indices_.erase(std::remove_if(indices_.begin(), indices_.end(),

@@ -210,7 +210,7 @@ TEST(IndexedObstacles, ContactTestIsMadeAgainAfterAnUpdate)
     const auto world = std::make_shared<IndexedObstacles>(ObstacleSet::fromGrid(map), 0.0, 4.0);
     std::vector<std::size_t> made;
     const FootprintChecker checker(world, smallCar(), 0.0,
-                                   [&made](const ObstacleSet &obstacles, double, double) -> ContactTest
+                                   [&made](const ObstacleSet &obstacles, const Body &) -> ContactTest
                                    {
                                        made.push_back(obstacles.rectangles().size());
                                        return [](const OrientedBox &)
