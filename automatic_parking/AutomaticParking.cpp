@@ -383,13 +383,19 @@ namespace parking
                    yawBetween(pose, goal) <= parameters_.goalYawTolerance;
         }
 
+        /** Makes the checkers of a drive. They see the changes of a perceived world. */
+        void makeCheckers(const ParkingLeg &leg)
+        {
+            enlarged_ = seenGround().enlarged(gapOf(leg));
+            withGap_ = closed_ ? world_.enlarged(gapOf(leg)) : enlarged_;
+        }
+
         /** Prepares the checks of a drive of which \e driven metres are over. */
         void beginWatching(const ParkingLeg &leg, double driven)
         {
-            const double gap = gapOf(leg);
-            enlarged_ = seenGround().enlarged(gap);
+            makeCheckers(leg);
             isBlockedLater_ = false;
-            keepsGap_ = isFreeFrom(leg, driven, gap);
+            keepsGap_ = withGap_ && isFreeFrom(leg, driven, *withGap_);
         }
 
         /** Monitors each period of a drive. \return false to request a safe stop */
@@ -424,7 +430,7 @@ namespace parking
             reaction.time = leg.begin + record.t;
             const double driven = std::max(0.0, record.control.s - parameters_.lookBack);
             const Change change = seen_ ? look(reaction.time, record.control.estimate, reaction.updateTime)
-                                        : takeOver(update_(reaction.time, record.control.estimate));
+                                        : takeOver(update_(reaction.time, record.control.estimate), leg);
             if (!change.any && !isBlockedLater_)
                 return;
             const Stopwatch checking;
@@ -455,7 +461,7 @@ namespace parking
             const bool drives =
                 record.control.mode == TrackingMode::Driving || record.control.mode == TrackingMode::Steering;
             Replan found;
-            found.failure = "the path is driven with stops to steer";
+            found.failure = leg.trajectory ? "no motion is searched" : "the path is driven with stops to steer";
             hasOpened_ = false;
             nextImprovement_ = reaction.time + parameters_.minTimeGain;
             if (leg.trajectory && parameters_.reactionTime > 0.0 && drives)
@@ -538,7 +544,7 @@ namespace parking
         }
 
         /** Replaces the world, if there is a changed one. */
-        Change takeOver(std::optional<Scenario> next)
+        Change takeOver(std::optional<Scenario> next, const ParkingLeg &leg)
         {
             if (!next)
                 return {};
@@ -554,6 +560,7 @@ namespace parking
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
             world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
+            makeCheckers(leg);
             return {true, true, true, moved};
         }
 
@@ -566,8 +573,7 @@ namespace parking
             const double braking =
                 std::abs(record.car.speed) / (accelerationShare() * scenario_.vehicle.maxAcceleration);
             const double until = record.control.time + parameters_.reactionTime + braking + TIME_TO_DECIDE;
-            const auto checker = world_.enlarged(gapOf(leg));
-            return !checker || !isFree(beginOf(leg.trajectory->trajectory.motion, until), driven, *checker);
+            return !withGap_ || !isFree(beginOf(leg.trajectory->trajectory.motion, until), driven, *withGap_);
         }
 
         /** Whether the rest of the drive is blocked in the changed world.
@@ -577,18 +583,15 @@ namespace parking
         bool isBlocked(const ParkingLeg &leg, double driven)
         {
             const bool keptGap = keepsGap_;
-            beginWatching(leg, driven);
-            return !keepsGap_ && (keptGap || !isFreeFrom(leg, driven, 0.0));
+            keepsGap_ = withGap_ && isFreeFrom(leg, driven, *withGap_);
+            return !keepsGap_ && (keptGap || !isFreeFrom(leg, driven, world_.footprint()));
         }
 
-        /** Whether the drive after its first \e driven metres is free with a clearance of \e gap. */
-        bool isFreeFrom(const ParkingLeg &leg, double driven, double gap) const
+        /** Whether the drive is free after its first \e driven metres. */
+        bool isFreeFrom(const ParkingLeg &leg, double driven, const FootprintChecker &checker) const
         {
-            const std::shared_ptr<const FootprintChecker> checker = world_.enlarged(gap);
-            if (!checker)
-                return false;
-            return leg.trajectory ? isFree(leg.trajectory->trajectory.motion, driven, *checker)
-                                  : isPathFree(*checker, leg.plan.path.rest(driven));
+            return leg.trajectory ? isFree(leg.trajectory->trajectory.motion, driven, checker)
+                                  : isPathFree(checker, leg.plan.path.rest(driven));
         }
 
         bool isFree(const TimedMotion &motion, double driven, const FootprintChecker &checker) const
@@ -650,6 +653,7 @@ namespace parking
         std::unique_ptr<PerceivedWorld> seen_;              // null if the world is known
         std::optional<ParkingWorld> truth_, closed_;        // of a perceived world: the true one, and the seen ground
         std::shared_ptr<const FootprintChecker> enlarged_;  // the body with its clearance while stopping
+        std::shared_ptr<const FootprintChecker> withGap_;   // the same where the car plans, on unseen ground, too
         const ParkingWorld *planWorld_{&world_};            // of the latest plan
         bool isBlockedLater_{false};                        // whether the driven motion is blocked
         bool keepsGap_{false};                              // whether the rest of the drive keeps that clearance
