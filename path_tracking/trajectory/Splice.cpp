@@ -9,12 +9,7 @@ namespace parking
     {
         constexpr double STEP = 0.02, WAY = 0.05;  // seconds and metres of a part
         constexpr double NO_TIME = 1e-9;           // seconds
-
-        MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part)
-        {
-            return {a.t + part * (b.t - a.t), a.v + part * (b.v - a.v), a.steering + part * (b.steering - a.steering)};
-        }
-    }  // namespace
+    }                                              // namespace
 
     TimedMotion beginOf(const TimedMotion &motion, double time)
     {

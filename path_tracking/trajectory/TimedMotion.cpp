@@ -12,11 +12,6 @@ namespace parking
         /** Negligible duration in seconds. */
         constexpr double NO_TIME = 1e-9;
 
-        MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part)
-        {
-            return {a.t + part * (b.t - a.t), a.v + part * (b.v - a.v), a.steering + part * (b.steering - a.steering)};
-        }
-
         Pose step(const Pose &pose, const MotionKnot &from, const MotionKnot &to, double wheelbase)
         {
             const double h = to.t - from.t;
@@ -35,6 +30,11 @@ namespace parking
                     pose.y + simpson(std::sin(pose.yaw), std::sin(yawMiddle), std::sin(yaw)), yaw};
         }
     }  // namespace
+
+    MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part)
+    {
+        return {a.t + part * (b.t - a.t), a.v + part * (b.v - a.v), a.steering + part * (b.steering - a.steering)};
+    }
 
     void TimedMotion::append(double after, double v, double steering)
     {

@@ -17,6 +17,9 @@ namespace parking
         double steering{0.0};  ///< radians
     };
 
+    /** \brief The knot at a share \e part of the time between two knots. */
+    MotionKnot between(const MotionKnot &a, const MotionKnot &b, double part);
+
     /** \brief Maximum duration of a motion or a reference, in seconds.
 
         Longer ones are rejected, because their samples would fill the memory. The limit corresponds to 50 km at TPCAP's
