@@ -16,12 +16,14 @@ SCENES = ['perpendicular', 'parallel', 'angled45', 'narrow_parallel', 'tight_par
 # Sources of the page, apart from the compiler.
 FOLDERS = ['automatic_parking', 'ompl_improved_astar', 'parking_geometry', 'path_tracking', 'state_validity', 'playground',
            os.path.join('benchmarks', 'scenarios')]
+FILES = [os.path.join('benchmarks', 'planners', name) for name in ('TextbookSearch.cpp', 'TextbookSearch.h')]
 
 
 def sources(root):
     """Tells pages apart that were made of other sources."""
-    names = sorted(os.path.join(place, name) for folder in FOLDERS for place, _, files in os.walk(os.path.join(root, folder))
-                   for name in files if name.endswith(('.h', '.cpp', '.js', '.css', '.html', '.py', '.yaml', '.pgm')))
+    names = sorted([os.path.join(place, name) for folder in FOLDERS for place, _, files in os.walk(os.path.join(root, folder))
+                    for name in files if name.endswith(('.h', '.cpp', '.js', '.css', '.html', '.py', '.yaml', '.pgm'))]
+                   + [os.path.join(root, file) for file in FILES])
     whole = hashlib.sha256()
     for name in names:
         whole.update(os.path.relpath(name, root).encode() + b'\0')

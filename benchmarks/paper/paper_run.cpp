@@ -32,7 +32,7 @@ namespace
     constexpr double CUSP = 0.75 * PI;  // radians; larger turns of a curve are changes of direction
 
     const std::vector<std::string> ALGORITHMS{"basic_astar",  "experiment_1", "experiment_2", "experiment_3",
-                                              "experiment_4", "experiment_5", "experiment_6", "improved_astar"};
+                                              "experiment_4", "experiment_5", "experiment_6", "paper_improved_astar"};
 
     struct Options
     {
@@ -102,9 +102,12 @@ namespace
             throw Error("no scenario given (see --help)");
         if (line.given("algorithm"))
             result.algorithms = line.texts("algorithm");
-        for (const std::string &each : result.algorithms)
+        for (std::string &each : result.algorithms)
+        {
+            each = parameterSetName(each);
             if (std::find(ALGORITHMS.begin(), ALGORITHMS.end(), each) == ALGORITHMS.end())
                 throw Error(unknownName("algorithm", each, ALGORITHMS));
+        }
         for (const std::string &each : line.texts("set"))
             result.settings.push_back(keyAndValue("--set", each));
         PaperVariant &variant = result.variant;
@@ -235,7 +238,7 @@ namespace
                    "Each SCENARIO is a YAML file, whose map may be a frame of SurroundOcc. Without a slot there is\n"
                    "no manoeuvre: A* plans to the goal.\n\n"
                    "Examples, run at the root of the project:\n"
-                   "  paper_run benchmarks/paper/maps/perpendicular.yaml --algorithm improved_astar\n"
+                   "  paper_run benchmarks/paper/maps/perpendicular.yaml --algorithm paper_improved_astar\n"
                    "  paper_run benchmarks/scenarios/parallel.yaml --lookup field --disc ahead --json runs.json\n\n"
                 << describe() << "\nStatus: 0 done with any status of the runs; 2 invalid input or usage\n";
             return 0;

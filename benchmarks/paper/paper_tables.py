@@ -11,8 +11,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 import picture_style as style  # noqa: E402
 
-ALGORITHMS = ['basic_astar', *(f'experiment_{k}' for k in range(1, 7)), 'improved_astar']
-NAMES = {name: name.replace('_', ' ').capitalize().replace('astar', 'A\\*') for name in ALGORITHMS}
+ALGORITHMS = ['basic_astar', *(f'experiment_{k}' for k in range(1, 7)), 'paper_improved_astar']
+NAMES = {name: name.removeprefix('paper_').replace('_', ' ').capitalize().replace('astar', 'A\\*') for name in ALGORITHMS}
 ERROR = 0.001  # error probability of an interval; 5 % for fifty intervals together
 NEAR = 1.05    # ratios within this factor of 1 count as equal
 PARKED_DISTANCE, PARKED_ANGLE = 0.25, 5.0  # maximum error of a parked car at rest in metres and degrees
@@ -47,13 +47,13 @@ PUBLISHED = {'perpendicular': {name: dict(zip(('loading', 'planning', 'accelerat
     'basic_astar': (98255.68, 21.86, 1.812, 19.74), 'experiment_1': (1.78, 442.93, 0.306, 10.79),
     'experiment_2': (96384.52, 6.9, 0.3062, 10.79), 'experiment_3': (1.95, 609.01, 0.141, 12.89),
     'experiment_4': (1.85, 583.30, 0.631, 20.31), 'experiment_5': (1.82, 430.61, 1.662, 10.05),
-    'experiment_6': (1.80, 621.65, 1.555, 9.20), 'improved_astar': (1.81, 411.04, 0.306, 10.79)}.items()},
+    'experiment_6': (1.80, 621.65, 1.555, 9.20), 'paper_improved_astar': (1.81, 411.04, 0.306, 10.79)}.items()},
     'parallel': {'basic_astar': dict(loading=110479.79, planning=65.77, length=101.8261, travel=26.2, acceleration=1.485,
                                      steering=12.7033),
-                 'improved_astar': dict(loading=3.10, planning=1213.97, length=101.8145, travel=66.4, acceleration=0.30,
+                 'paper_improved_astar': dict(loading=3.10, planning=1213.97, length=101.8145, travel=66.4, acceleration=0.30,
                                         steering=20.03)}}
 PUBLISHED['perpendicular']['basic_astar'].update(length=78.14, travel=20.4)
-PUBLISHED['perpendicular']['improved_astar'].update(length=72.119, travel=49.6)
+PUBLISHED['perpendicular']['paper_improved_astar'].update(length=72.119, travel=49.6)
 for _table in PUBLISHED.values():
     for _row in _table.values():
         _row['total'] = _row['loading'] + _row['planning']
@@ -160,9 +160,9 @@ def ratio_table(results):
     """All ratios of the paper's tables, with those of these runs."""
     measures = {'loading': 'map loading', 'planning': 'planning', 'total': 'loading and planning',
                 'acceleration': 'mean acceleration', 'steering': 'mean steering', 'length': 'length', 'travel': 'travel time'}
-    pairs = [('perpendicular', name, 'improved_astar') for name in ALGORITHMS[:-1]]
+    pairs = [('perpendicular', name, 'paper_improved_astar') for name in ALGORITHMS[:-1]]
     pairs += [('perpendicular', 'experiment_2', 'basic_astar'), ('perpendicular', 'experiment_6', 'experiment_5'),
-              ('perpendicular', 'experiment_6', 'experiment_3'), ('parallel', 'basic_astar', 'improved_astar')]
+              ('perpendicular', 'experiment_6', 'experiment_3'), ('parallel', 'basic_astar', 'paper_improved_astar')]
     rows, counts = [], {}
     for scenario, first, second in pairs:
         cells = [f'{scenario}: {NAMES[first]} / {NAMES[second]}']
@@ -182,7 +182,7 @@ def ratio_table(results):
 
 # element, file, claim, and its check: (ratio, first, second, scenario, the paper's ratio or bound).
 SEARCH, GRID = 'ompl_improved_astar/search/', 'ompl_improved_astar/search/models/GridModel.h'
-I, B = 'improved_astar', 'basic_astar'
+I, B = 'paper_improved_astar', 'basic_astar'
 CLAIMS = [
     ('whole planner, perpendicular', 'benchmarks/paper/PaperTask.h', 'loading and planning take over 95 % less time',
      ('total', I, B, 'perpendicular', 0.05)),
@@ -338,7 +338,7 @@ def figure(runs):
     for run, tracks, (x, y) in zip(runs, places, ranges):
         y = (y[0], y[0] + height / scale)
         axes = style.Axes(left, top, scale * (x[1] - x[0]), height, x, y)
-        name = f'{run["scenario"].split("_")[0]}, {run["algorithm"].split("_")[0]}'
+        name = f'{run["scenario"].split("_")[0]}, {run["algorithm"].removeprefix("paper_").split("_")[0]}'
         body += axes.frame(name, 'x (m)', 'y (m)' if left == 62.0 else '', style.round_ticks(*x, 5), style.round_ticks(*y, 10))
         for track, (_, colour, dash) in zip(tracks, lines):
             body += axes.curve(*zip(*track), colour, dash)

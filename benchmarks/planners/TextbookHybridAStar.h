@@ -1,5 +1,7 @@
 #pragma once
 
+#include "benchmarks/planners/TextbookSearch.h"
+
 #include <ompl/base/Planner.h>
 
 namespace parking
@@ -22,23 +24,6 @@ namespace parking
         using ompl::base::Planner::solve;
 
     private:
-        struct Parameters
-        {
-            double xyResolution{0.1};  ///< cell size in metres of the lattice and of the disc's distances
-            unsigned headingBins{72};  ///< number of headings round the circle
-            unsigned steeringAngles{
-                3};  ///< number of steering angles, odd: from full left to full right lock, evenly spaced
-            double motionLength{0.5};       ///< length of a motion in metres
-            double reversePenalty{1.0};     ///< extra cost per metre in reverse
-            double gearChangePenalty{1.0};  ///< metres
-            double steeringPenalty{0.0};    ///< extra cost per metre at full lock
-            unsigned expansionInterval{5};  ///< number of nodes between analytic expansions
-            double heuristicWeight{1.0};
-            bool obstacleHeuristic{true};
-        };
-
-        class Search;
-
-        Parameters parameters_;
+        TextbookParameters parameters_;
     };
 }  // namespace parking

@@ -82,7 +82,7 @@ picture(found, '6-map.png')
 assert found and ia.check(garage, found)
 
 print('7. Comparison with the grid model of the paper')
-paper = ia.plan(garage, parameter_set='improved_astar')
+paper = ia.plan(garage, parameter_set='paper_improved_astar')
 print(f'  grid: {paper.length:.2f} m for a circle that turns on the spot; car: {found.length:.2f} m')
 
 print('8. Many at once')

@@ -7,6 +7,7 @@
 #include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/text/Text.h"
 #include "playground/src/Describe.h"
+#include "playground/src/TextbookPlan.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,9 @@ namespace
 
     constexpr double MS = 1e3;                // milliseconds in a second
     constexpr double TRAJECTORY_STEP = 0.05;  // seconds between points
-    constexpr std::size_t OUTPUTS = PLAYGROUND_BOUNDS + 1;
+    constexpr std::size_t OUTPUTS = PLAYGROUND_FIELD + 1;
+    constexpr double LEAST_SPACING = 0.1;  // metres between points of the distance field
+    constexpr std::size_t MOST_TEXTBOOK_NODES = 20000;
     constexpr std::size_t MOST_GOALS = 1000, MOST_CORNERS = 1000000;
 
     struct Session
@@ -37,6 +40,7 @@ namespace
         std::unique_ptr<const ScenarioPlanner> planner;
         double loading{0.0};  // milliseconds
         std::optional<ScenarioPlan> plan;
+        std::optional<SearchTrace> textbookTrace;  // of the plan, if the textbook's search found it
         std::array<std::vector<double>, OUTPUTS> outputs;
     };
 
@@ -220,6 +224,21 @@ namespace
         output(PLAYGROUND_BOUNDS) = {low.x(), low.y(), high.x(), high.y()};
     }
 
+    /** Whether the car itself can drive the path of a disc, as PLAYGROUND_SUMMARY reports it. */
+    double obstructionOf(const ScenarioPlan &plan)
+    {
+        constexpr double ROUNDING = 1e-6;
+        const FootprintChecker &footprint = planner().footprint();
+        const double most = (1.0 + ROUNDING) / planner().scenario().vehicle.minTurningRadius();
+        for (const PathPiece &piece : plan.path.pieces)
+            if (piece.turn != 0.0 || std::max(std::abs(piece.curvature), std::abs(piece.endCurvature())) > most)
+                return 1.0;
+        for (const PathState &state : planner().states(plan))
+            if (plan.isDisc && !footprint.isFree(state.pose))
+                return 2.0;
+        return 0.0;
+    }
+
     void showPlan(const ScenarioPlan &plan)
     {
         constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
@@ -241,7 +260,8 @@ namespace
                                       static_cast<double>(plan.goal),
                                       plan.isDisc ? 1.0 : 0.0,
                                       world.circleRadius(),
-                                      scenario.vehicle.minTurningRadius()};
+                                      scenario.vehicle.minTurningRadius(),
+                                      obstructionOf(plan)};
         for (const PathState &state : world.states(plan))
         {
             const Pose pose = scenario.toWorld(state.pose);
@@ -253,6 +273,15 @@ namespace
         if (plan.hasPath())
             for (const PathPiece &piece : plan.path.pieces)
                 append(output(PLAYGROUND_PIECES), {piece.curvature, piece.length, piece.sharpness, piece.turn});
+    }
+
+    void forgetPlan()
+    {
+        for (const PlaygroundOutput each :
+             {PLAYGROUND_SUMMARY, PLAYGROUND_PATH, PLAYGROUND_PIECES, PLAYGROUND_TRAJECTORY})
+            output(each).clear();
+        session().plan.reset();
+        session().textbookTrace.reset();
     }
 
     void showTree(std::vector<double> &to, const std::vector<TraceNode> &nodes)
@@ -314,7 +343,7 @@ extern "C"
             [count]
             {
                 session().planner.reset();
-                session().plan.reset();
+                forgetPlan();
                 for (auto &each : session().outputs)
                     each.clear();
                 Scenario scenario = takeScenario(Numbers(session().numbers, count), session().cells);
@@ -341,16 +370,55 @@ extern "C"
         return tried(
             [&]
             {
-                for (const PlaygroundOutput each :
-                     {PLAYGROUND_SUMMARY, PLAYGROUND_PATH, PLAYGROUND_PIECES, PLAYGROUND_TRAJECTORY})
-                    output(each).clear();
-                session().plan.reset();
+                forgetPlan();
                 PlanLimits limits;
                 limits.time = seconds;
                 limits.expansions = expansions > 0.0 ? static_cast<std::uint64_t>(expansions) : 0;
                 session().plan = planner().plan(session().parameters, limits);
                 showPlan(*session().plan);
                 session().message = session().plan->reason.empty() ? session().plan->notice : session().plan->reason;
+            });
+    }
+
+    bool playground_plan_by_textbook(double seconds)
+    {
+        return tried(
+            [seconds]
+            {
+                forgetPlan();
+                PlanLimits limits;
+                limits.time = seconds;
+                playground::TextbookPlan found = playground::planByTextbook(planner(), limits, MOST_TEXTBOOK_NODES);
+                session().plan = std::move(found.plan);
+                session().textbookTrace = std::move(found.trace);
+                showPlan(*session().plan);
+                session().message = session().plan->reason;
+            });
+    }
+
+    bool playground_field(double mostSide)
+    {
+        return tried(
+            [mostSide]
+            {
+                std::vector<double> &field = output(PLAYGROUND_FIELD);
+                field.clear();
+                const Scenario &scenario = planner().scenario();
+                const FootprintChecker &footprint = planner().footprint();
+                const Eigen::Vector2d low = scenario.bounds.min, size = scenario.bounds.size();
+                const double spacing = std::max(LEAST_SPACING, size.maxCoeff() / std::clamp(mostSide, 1.0, 2000.0));
+                const double columns = std::floor(size.x() / spacing) + 1.0,
+                             rows = std::floor(size.y() / spacing) + 1.0;
+                append(field, {columns, rows, spacing, low.x() + scenario.worldOffset.x(),
+                               low.y() + scenario.worldOffset.y()});
+                for (double row = 0.0; row < rows; ++row)
+                    for (double column = 0.0; column < columns; ++column)
+                    {
+                        const Pose at =
+                            footprint.obstacles().toLocal({low.x() + column * spacing, low.y() + row * spacing, 0.0});
+                        field.push_back(0.5 * (footprint.field().lowerBound(at.x, at.y) +
+                                               footprint.field().upperBound(at.x, at.y)));
+                    }
             });
     }
 
@@ -363,8 +431,10 @@ extern "C"
                     output(each).clear();
                 PlanLimits limits;
                 limits.time = seconds;
-                const SearchTrace trace = traceSearch(planner(), session().parameters, limits,
-                                                      static_cast<std::size_t>(std::max(1.0, mostNodes)));
+                const SearchTrace trace = session().textbookTrace
+                                              ? *session().textbookTrace
+                                              : traceSearch(planner(), session().parameters, limits,
+                                                            static_cast<std::size_t>(std::max(1.0, mostNodes)));
                 showTree(output(PLAYGROUND_START_TREE), trace.start);
                 showTree(output(PLAYGROUND_GOAL_TREE), trace.goal);
                 for (const TraceStep &step : trace.steps)

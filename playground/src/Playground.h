@@ -47,8 +47,15 @@ extern "C"
         The outcome is in PLAYGROUND_SUMMARY; false only for invalid input. */
     bool playground_plan(double seconds, double expansions);
 
+    /** \brief Plans as playground_plan(), but with the textbook's Hybrid A*, which ignores the parameters. */
+    bool playground_plan_by_textbook(double seconds);
+
     /** \brief Records the search of the last plan. */
     bool playground_trace(double seconds, double mostNodes);
+
+    /** \brief Samples the distance to the nearest obstacle all over the world, with at most \e mostSide points along x
+        and y. */
+    bool playground_field(double mostSide);
 
     /** \brief Optimises the fastest trajectory near the path of the last plan. */
     bool playground_trajectory(double seconds);
@@ -62,7 +69,8 @@ extern "C"
         /** Outcome (0 exact, 1 approximate, 2 infeasible, 3 timeout, 4 invalid start, 5 invalid goal, 6 escaped),
            length, cusps, clearance, cost, bound, expansions, motions generated, curves attempted, poses checked,
            milliseconds of planning, milliseconds of loading, index of the goal, whether it is for a disc, radius of the
-           disc, minimum turning radius. */
+           disc, minimum turning radius, and whether the car can drive the path: 0 yes, 1 it turns on the spot or more
+           tightly than the car, 2 the car's body touches an obstacle. */
         PLAYGROUND_SUMMARY,
         PLAYGROUND_PATH,        ///< rows x, y, yaw, direction, curvature, metres driven, clearance
         PLAYGROUND_PIECES,      ///< rows curvature, length, sharpness, turn
@@ -72,7 +80,8 @@ extern "C"
         PLAYGROUND_STEPS,       ///< rows expansions, nodes of the start's tree, of the goal's tree, solved
         PLAYGROUND_GOALS,       ///< rows x, y, yaw
         PLAYGROUND_SLOT,        ///< rows x, y of its corners
-        PLAYGROUND_BOUNDS       ///< minimum and maximum x and y of the world
+        PLAYGROUND_BOUNDS,      ///< minimum and maximum x and y of the world
+        PLAYGROUND_FIELD  ///< columns, rows, spacing, x and y of the first point, then metres row by row from below
     };
 
     /** \brief The numbers of an output, valid until the next call that computes them. */

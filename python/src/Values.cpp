@@ -301,7 +301,7 @@ namespace parking::python
             if (const auto *flag = std::get_if<bool PlannerParameters::*>(&row.member))
                 parameters.*(*flag) = flagFrom(value, name);
             else if (const auto *text = std::get_if<std::string PlannerParameters::*>(&row.member))
-                parameters.*(*text) = textFrom(value, name);
+                parameters.*(*text) = name == "parameter_set" ? parameters.parameterSet : textFrom(value, name);
             else
                 row.setNumber(parameters, numberFrom(value, name));
         }

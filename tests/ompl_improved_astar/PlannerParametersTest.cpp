@@ -126,7 +126,7 @@ namespace
                           simple = grid8 + fromStart + " open_list=linear";
         const std::map<std::string, std::string> expected{
             {"default", "motion_model=car bidirectional=1 open_list=binary_heap"},
-            {"improved_astar", grid8 + weighted + " smoothing=bspline obstacle_loading=lazy bidirectional=1"},
+            {"paper_improved_astar", grid8 + weighted + " smoothing=bspline obstacle_loading=lazy bidirectional=1"},
             {"basic_astar", simple + unweighted + " obstacle_loading=eager smoothing=none approximate=0"},
             {"experiment_1", grid8 + unweighted + " smoothing=bspline obstacle_loading=lazy bidirectional=1"},
             {"experiment_2", grid8 + weighted + " obstacle_loading=eager"},

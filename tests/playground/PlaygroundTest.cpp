@@ -118,7 +118,8 @@ namespace
             const ScenarioPlanner planner(scenario);
             const ScenarioPlan plan = planner.plan({}, limits);
             const std::vector<double> summary = output(PLAYGROUND_SUMMARY);
-            ASSERT_EQ(summary.size(), 16u);
+            ASSERT_EQ(summary.size(), 17u);
+            EXPECT_EQ(summary[16], 0.0) << "a car drives it";
             EXPECT_EQ(summary[0], 0.0) << name;
             EXPECT_NEAR(summary[1], plan.path.length(), 1e-9) << name;
             EXPECT_EQ(summary[2], static_cast<double>(plan.path.cusps())) << name;
@@ -165,9 +166,10 @@ namespace
     TEST_F(PlaygroundTest, ParametersChangeThePlan)
     {
         ASSERT_TRUE(setScene(bundled("perpendicular")));
-        ASSERT_TRUE(playground_set_parameter("parameter_set", "improved_astar"));
+        ASSERT_TRUE(playground_set_parameter("parameter_set", "paper_improved_astar"));
         ASSERT_TRUE(playground_plan(10.0, 0.0)) << playground_message();
         EXPECT_EQ(output(PLAYGROUND_SUMMARY)[13], 1.0) << "a grid model plans for a disc";
+        EXPECT_NE(output(PLAYGROUND_SUMMARY)[16], 0.0) << "a car cannot drive it";
         playground_reset_parameters();
         ASSERT_TRUE(playground_plan(10.0, 0.0));
         EXPECT_EQ(output(PLAYGROUND_SUMMARY)[13], 0.0);
@@ -224,5 +226,56 @@ namespace
         const Pose start = scenario.toWorld(scenario.start);
         EXPECT_TRUE(playground_is_free(start.x, start.y, start.yaw));
         EXPECT_FALSE(playground_is_free(start.x + 1e4, start.y, start.yaw));
+    }
+
+    TEST_F(PlaygroundTest, PlansByTheTextbook)
+    {
+        const Scenario scenario = bundled("perpendicular");
+        ASSERT_TRUE(setScene(scenario));
+        ASSERT_TRUE(playground_plan_by_textbook(60.0)) << playground_message();
+        const std::vector<double> summary = output(PLAYGROUND_SUMMARY), path = output(PLAYGROUND_PATH);
+        ASSERT_EQ(summary[0], 0.0) << playground_message();
+        EXPECT_EQ(summary[16], 0.0) << "a car drives it";
+        EXPECT_GT(summary[3], 0.0) << "clearance";
+        const Pose goal = scenario.toWorld(scenario.goals.at(static_cast<std::size_t>(summary[12])));
+        EXPECT_NEAR(path[path.size() - 7], goal.x, 1e-6);
+        EXPECT_NEAR(path[path.size() - 6], goal.y, 1e-6);
+        ASSERT_TRUE(playground_trace(1.0, 1.0)) << playground_message();
+        const std::vector<double> tree = output(PLAYGROUND_START_TREE), steps = output(PLAYGROUND_STEPS);
+        EXPECT_GT(tree.size(), 9u * 10u);
+        EXPECT_EQ(output(PLAYGROUND_GOAL_TREE).size(), 0u);
+        EXPECT_EQ(steps[steps.size() - 4], summary[6]) << "all expansions";
+        ASSERT_TRUE(playground_trajectory(10.0)) << playground_message();
+        EXPECT_GT(output(PLAYGROUND_TRAJECTORY).size(), 80u);
+        // A start in an obstacle is reported as such.
+        std::vector<double> blocked = numbersOf(scenario);
+        const Polygon &obstacle = scenario.polygons.front();
+        blocked[9] = obstacle.front().x() + scenario.worldOffset.x();
+        blocked[10] = obstacle.front().y() + scenario.worldOffset.y();
+        ASSERT_TRUE(setScene(blocked)) << playground_message();
+        ASSERT_TRUE(playground_plan_by_textbook(1.0));
+        EXPECT_EQ(output(PLAYGROUND_SUMMARY)[0], 4.0);
+        EXPECT_NE(std::string(playground_message()).find("start"), std::string::npos);
+    }
+
+    TEST_F(PlaygroundTest, SamplesTheDistanceField)
+    {
+        const Scenario scenario = bundled("parallel");
+        ASSERT_TRUE(setScene(scenario));
+        ASSERT_TRUE(playground_field(100.0)) << playground_message();
+        const std::vector<double> field = output(PLAYGROUND_FIELD);
+        const auto columns = static_cast<std::size_t>(field[0]), rows = static_cast<std::size_t>(field[1]);
+        ASSERT_EQ(field.size(), 5u + columns * rows);
+        EXPECT_LE(std::max(columns, rows), 101u);
+        const Eigen::Vector2d corner = scenario.polygons.front().front() + scenario.worldOffset;
+        const auto at = [&](double x, double y)
+        {
+            const auto column = static_cast<std::size_t>(std::lround((x - field[3]) / field[2]));
+            const auto row = static_cast<std::size_t>(std::lround((y - field[4]) / field[2]));
+            return field[5 + row * columns + column];
+        };
+        const Pose start = scenario.toWorld(scenario.start);
+        EXPECT_LT(at(corner.x(), corner.y()), 2.0 * field[2]);
+        EXPECT_GT(at(start.x, start.y), 0.5);
     }
 }  // namespace

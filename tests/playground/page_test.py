@@ -236,7 +236,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.ask('playground.Panels.parameters'), {})
         choose = '''(name => { const box = document.getElementById('compare'); box.value = name;
             box.dispatchEvent(new Event('change')); })'''
-        self.settle(f'{choose}("improved_astar")')
+        self.settle(f'{choose}("paper_improved_astar")')
         self.assertEqual(self.ask('playground.answer.plans.length'), 2)
         self.assertEqual(self.ask('playground.answer.plans[1].summary[13]'), 1, 'the grid plans for a disc')
         self.assertFalse(self.ask('document.getElementById("sides").hidden'))
@@ -319,7 +319,7 @@ class PageTest(unittest.TestCase):
                 self.assertEqual(out, [], 'not to be reached without scrolling sideways')
 
     def test_both_planners_are_seen_side_by_side(self):
-        self.settle('''(() => { const box = document.getElementById('compare'); box.value = 'improved_astar';
+        self.settle('''(() => { const box = document.getElementById('compare'); box.value = 'paper_improved_astar';
             box.dispatchEvent(new Event('change')); })()''')
         self.count('forward')
         halves = self.ask('''(() => {

@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     f'{PIPELINE}/scenario': LIBRARIES,
     f'{PIPELINE}/perception': [VALIDITY, GEOMETRY],
     'python': LIBRARIES,
-    'playground': LIBRARIES,
+    'playground': LIBRARIES + ['benchmarks/planners'],  # the textbook's search, which is free of OMPL
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
     'integrations': [PLANNER, VALIDITY, GEOMETRY],  # of the core, see NEVER

@@ -223,7 +223,8 @@ namespace parking
             if constexpr (std::is_same_v<Value, std::string>)
             {
                 const Names known = values.names();
-                if (std::find(known.begin(), known.end(), value) == known.end())
+                const bool isSet = values.names == parameterSetNames;
+                if (std::find(known.begin(), known.end(), isSet ? parameterSetName(value) : value) == known.end())
                     throw Error(unknownName("value for " + name, value, known));
             }
             else if constexpr (!std::is_same_v<Value, bool>)
@@ -258,7 +259,7 @@ namespace parking
         double number = 0.0;
         const bool isSwitch = std::holds_alternative<bool P::*>(member);
         if (const auto *at = std::get_if<std::string P::*>(&member))
-            changed.*(*at) = text;
+            changed.*(*at) = values.names == parameterSetNames ? parameterSetName(text) : text;
         else if (isSwitch && (text == "true" || text == "false"))
             changed.*std::get<bool P::*>(member) = text == "true";
         else if (!isSwitch && parseNumber(text, number))
@@ -297,16 +298,22 @@ namespace parking
 
     std::vector<std::string> parameterSetNames()
     {
-        return {"default",      "basic_astar",  "experiment_1", "experiment_2",   "experiment_3",
-                "experiment_4", "experiment_5", "experiment_6", "improved_astar", "hybrid_astar"};
+        return {"default",      "basic_astar",  "experiment_1", "experiment_2",         "experiment_3",
+                "experiment_4", "experiment_5", "experiment_6", "paper_improved_astar", "hybrid_astar"};
+    }
+
+    std::string parameterSetName(const std::string &name)
+    {
+        return name == "improved_astar" ? "paper_improved_astar" : name;
     }
 
     PlannerParameters parameterSet(const std::string &name, const PlannerParameters &current)
     {
         const Names names = parameterSetNames();
-        if (std::find(names.begin(), names.end(), name) == names.end())
+        const std::string known = parameterSetName(name);
+        if (std::find(names.begin(), names.end(), known) == names.end())
             throw Error(unknownName("parameter set", name, names));
-        PlannerParameters set = namedSet(name);
+        PlannerParameters set = namedSet(known);
         set.turningRadius = current.turningRadius;
         set.xyResolution = current.xyResolution;
         set.headingBins = current.headingBins;

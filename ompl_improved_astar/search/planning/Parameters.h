@@ -120,9 +120,13 @@ namespace parking
     void checkParameters(const PlannerParameters &parameters);
 
     /** \brief Names of the parameter sets: `default`, the paper's `basic_astar`, `experiment_1` to `experiment_6` and
-        `improved_astar` (its ablation, on the grid model), and `hybrid_astar` (the car model with the improvements
-        off). */
+        `paper_improved_astar` (its ablation, on the grid model), and `hybrid_astar` (the car model with the
+        improvements off). */
     std::vector<std::string> parameterSetNames();
+
+    /** \brief The current name of a parameter set: `paper_improved_astar` for its alias `improved_astar`, otherwise
+        \e name. */
+    std::string parameterSetName(const std::string &name);
 
     /** \brief The parameters of a named set; turning radius, resolution and headings are kept from \e current.
 

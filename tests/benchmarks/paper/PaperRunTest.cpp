@@ -176,7 +176,7 @@ TEST(PaperDrive, comesToRestWhereTheWayEndsForwardsAndInReverse)
 TEST(PaperTask, joinsTheWayAndTheManoeuvre)
 {
     for (const DiscPlace place : {DiscPlace::Middle, DiscPlace::Ahead, DiscPlace::RearAxle})
-        for (const char *algorithm : {"basic_astar", "improved_astar"})
+        for (const char *algorithm : {"basic_astar", "paper_improved_astar"})
         {
             SCOPED_TRACE(algorithm);
             PaperVariant variant;
@@ -204,7 +204,7 @@ TEST(PaperTask, joinsTheWayAndTheManoeuvre)
 TEST(PaperTask, loadingEagerlyLooksAtManyMoreCells)
 {
     const PaperTask task(paperMap("perpendicular"), {});
-    const PaperRun lazy = task.run(parameterSet("improved_astar", {}), 5.0, false);
+    const PaperRun lazy = task.run(parameterSet("paper_improved_astar", {}), 5.0, false);
     const PaperRun eager = task.run(parameterSet("experiment_2", {}), 5.0, false);
     EXPECT_EQ(lazy.statistics.expanded, eager.statistics.expanded);
     EXPECT_EQ(lazy.corners, eager.corners);
@@ -230,15 +230,16 @@ TEST(PaperTask, comesAsNearAsTheDiscGetsWithoutASlot)
     {
         const PaperTask task(paperMap(map), {});
         EXPECT_TRUE(task.run(parameterSet("basic_astar", {}), 5.0, true).curve.empty());
-        const PaperRun run = task.run(parameterSet("improved_astar", {}), 5.0, true);
+        const PaperRun run = task.run(parameterSet("paper_improved_astar", {}), 5.0, true);
         EXPECT_EQ(run.status, "approximate");
         EXPECT_NEAR(run.approachError, nearest, 1e-3);
         EXPECT_NEAR((run.curve.back() - Eigen::Vector2d(run.goal.x, run.goal.y)).norm(), nearest, 1e-3);
         EXPECT_FALSE(run.drive.states.empty());
     }
-    EXPECT_EQ(
-        PaperTask(paperMap("perpendicular_approach"), {}).run(parameterSet("improved_astar", {}), 5.0, false).status,
-        "exact");
+    EXPECT_EQ(PaperTask(paperMap("perpendicular_approach"), {})
+                  .run(parameterSet("paper_improved_astar", {}), 5.0, false)
+                  .status,
+              "exact");
 }
 
 TEST(PaperTask, refusesWhatIsNotThePapers)
@@ -249,7 +250,7 @@ TEST(PaperTask, refusesWhatIsNotThePapers)
 TEST(PaperTask, saysWhyThereIsNoManoeuvre)
 {
     const PaperTask task(paperMap("parallel"), {});
-    const PaperRun run = task.run(parameterSet("improved_astar", {}), 1.0, true);
+    const PaperRun run = task.run(parameterSet("paper_improved_astar", {}), 1.0, true);
     EXPECT_EQ(run.status, "no_manoeuvre");
     EXPECT_NE(run.reason.find("too short for one sweep"), std::string::npos) << run.reason;
     EXPECT_TRUE(run.curve.empty());

@@ -45,8 +45,8 @@ class PaperTablesTest(unittest.TestCase):
         results = paper.Results('')
         results.runs['perpendicular', 'printed'] = {
             'basic_astar': {'a': {'status': 'exact', 'length_m': 3.0}, 'b': {'status': 'exact', 'length_m': 5.0}},
-            'improved_astar': {'a': {'status': 'exact', 'length_m': 2.0}, 'b': {'status': 'timeout'}}}
-        self.assertEqual(results.ratio('length', 'basic_astar', 'improved_astar').values, [1.5])
+            'paper_improved_astar': {'a': {'status': 'exact', 'length_m': 2.0}, 'b': {'status': 'timeout'}}}
+        self.assertEqual(results.ratio('length', 'basic_astar', 'paper_improved_astar').values, [1.5])
 
     def test_links_lead_to_files(self):
         for _, file, *_ in paper.CLAIMS:

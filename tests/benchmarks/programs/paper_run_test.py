@@ -33,15 +33,19 @@ class PaperRunTest(ProgramTest):
             for key in TIMES:
                 self.assertGreaterEqual(one[key], 0.0)
         by_name = {run['algorithm']: run for run in first}
-        self.assertEqual(by_name['experiment_2']['length_m'], by_name['improved_astar']['length_m'])
-        self.assertGreater(by_name['experiment_3']['open_list_comparisons'], by_name['improved_astar']['open_list_comparisons'])
+        self.assertEqual(by_name['experiment_2']['length_m'], by_name['paper_improved_astar']['length_m'])
+        self.assertGreater(by_name['experiment_3']['open_list_comparisons'], by_name['paper_improved_astar']['open_list_comparisons'])
 
     def test_a_drive_and_its_lines(self):
-        run, = self.runs(TASK, '--algorithm', 'improved_astar', '--lines')
+        run, = self.runs(TASK, '--algorithm', 'paper_improved_astar', '--lines')
         drive = run['drive']
         self.assertGreater(len(drive['states']), 100)
         self.assertEqual(len(run['curve'][0]), 2)
         self.assertGreater(drive['mean_abs_acceleration'], 0.0)
+
+    def test_the_paper_s_planner_has_an_alias(self):
+        run, = self.runs(TASK, '--algorithm', 'improved_astar', '--no-drive')
+        self.assertEqual(run['algorithm'], 'paper_improved_astar')
 
     def test_the_map_is_not_written_over(self):
         self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
@@ -57,7 +61,7 @@ class PaperRunTest(ProgramTest):
             self.assertEqual(done.returncode, 0, done.stderr)
         for name, status in (('perpendicular', 'exact'), ('parallel', 'exact'), ('unreachable', 'approximate')):
             self.assertTrue(filecmp.cmp(self.path(f'maps/{name}_00.npy'), self.path(f'again/{name}_00.npy'), shallow=False))
-            run, = self.runs(self.path(f'maps/{name}_00.yaml'), '--algorithm', 'improved_astar', '--no-drive')
+            run, = self.runs(self.path(f'maps/{name}_00.yaml'), '--algorithm', 'paper_improved_astar', '--no-drive')
             self.assertEqual(run['status'], status, name)
 
     def test_bad_input_is_one_line_and_status_2(self):

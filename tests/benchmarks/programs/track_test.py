@@ -82,7 +82,7 @@ class TrackTest(ProgramTest):
         self.assertFalse(os.path.exists(self.path('a.html')))
 
     def test_who_cuts_corners_says_so(self):
-        for name in ('basic_astar', 'improved_astar'):  # both with a grid
+        for name in ('basic_astar', 'paper_improved_astar'):  # both with a grid
             done = self.plan(bundled('parallel'), '--track', '--set', 'parameter_set=' + name, '--json', 'result.json')
             tracking = json.loads(self.read('result.json'))['tracking']
             self.assertTrue(tracking['arrived'], tracking['message'])

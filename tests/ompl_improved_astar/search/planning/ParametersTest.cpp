@@ -183,3 +183,29 @@ TEST(Parameters, UnknownAndRemovedNamesAreAnsweredWithWhatToUseInstead)
         EXPECT_TRUE(isRefused([&] { parameterNamed(name); }, {std::string(name) + " was removed: ", instead}));
     EXPECT_TRUE(isRefused([] { parameterSet("experiment_7", {}); }, {"did you mean 'experiment_1'"}));
 }
+
+TEST(Parameters, ThePaperSSetIsAcceptedByItsFormerName)
+{
+    const std::string name = "paper_improved_astar";
+    EXPECT_EQ(parameterSetName("improved_astar"), name);
+    EXPECT_EQ(parameterSetName("improved"), "improved");
+    EXPECT_TRUE(parameterSet("improved_astar", {}) == parameterSet(name, {}));
+    PlannerParameters parameters;
+    parameterNamed("parameter_set").setText(parameters, "improved_astar");
+    EXPECT_EQ(parameters.parameterSet, name);
+    parameters.parameterSet = "improved_astar";
+    EXPECT_NO_THROW(checkParameters(parameters));
+    EXPECT_TRUE(isRefused(
+        []
+        {
+            parameterNamed("motion_model")
+                .check(
+                    []
+                    {
+                        PlannerParameters each;
+                        each.motionModel = "improved_astar";
+                        return each;
+                    }());
+        },
+        {"motion_model"}));
+}
