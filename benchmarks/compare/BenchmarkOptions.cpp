@@ -25,7 +25,7 @@ namespace parking
             add("seed", oneValue("N"), "seed of all random numbers");
             add("scenarios", manyValues("FILE|DIR"), "use this scenario instead of the configuration's; repeatable");
             add("planner", manyValues("NAME"), "run only this planner of the configuration; repeatable");
-            add("plugin", manyValues("LIB.so"), "load planners from a library; repeatable");
+            add("plugin", manyValues("FILE"), "load planners from a library (.so) or a Python file (.py); repeatable");
             add("shard", oneValue("I/N"), "execute part I of N (1/N to N/N), to be merged later");
             add("merge", "execute no runs: merge the runs in the output folder, or those of --from");
             add("from", manyValues("FILE|DIR"), "with --merge: file or folder of runs; repeatable");

@@ -21,7 +21,7 @@ namespace parking
         std::optional<std::uint_fast32_t> seed;  ///< seed of all random numbers; default: the configuration's
         std::vector<std::string> scenarios;      ///< scenarios that replace the configuration's; empty: those
         std::vector<std::string> planners;       ///< planners of the configuration to run; empty: all
-        std::vector<std::string> plugins;        ///< libraries whose planners are loaded
+        std::vector<std::string> plugins;        ///< files whose planners are loaded
         std::size_t shard{0};                    ///< index of the part to execute, from 0
         std::size_t shards{1};                   ///< number of parts that the runs are divided into
         bool merge{false};                       ///< whether to merge runs without executing any

@@ -44,7 +44,7 @@ namespace parking
             add("svg", oneValue("FILE"), "draw the result");
             add("csv", oneValue("FILE"), "with --trajectory: write it as a table t,x,y,yaw,v,a,steering,steering_rate");
             add("html", oneValue("FILE"), "with --track: write a page that shows the drive");
-            add("plugin", manyValues("LIB.so"), "load planners from a library");
+            add("plugin", manyValues("FILE"), "load planners from a library (.so) or a Python file (.py)");
             add("help", "print this text");
             return options;
         }

@@ -33,7 +33,7 @@ namespace parking
         std::string svg;                   ///< picture; empty: none
         std::string csv;                   ///< table of the trajectory, with `trajectory` only; empty: none
         std::string html;                  ///< page of the drive, with `track` only; empty: none
-        std::vector<std::string> plugins;  ///< libraries whose planners are loaded
+        std::vector<std::string> plugins;  ///< files whose planners are loaded
 
         /** \brief All files that the options write. */
         std::vector<std::string> outputFiles() const;

@@ -1,5 +1,6 @@
 #include "benchmarks/planners/MeasuredPlanner.h"
 
+#include "benchmarks/planners/PythonPlanner.h"
 #include "ompl_improved_astar/DrivingCostObjective.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/OmplPose.h"
@@ -106,6 +107,13 @@ namespace parking
             if (!failure_)
                 failure_ = currentFailure(where);
         }
+    }
+
+    void MeasuredPlanner::setTimeLimit(double seconds)
+    {
+        timeLimit_ = seconds;
+        if (auto *python = dynamic_cast<PythonPlanner *>(planner_.get()))
+            python->setTimeLimit(seconds);
     }
 
     void MeasuredPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr &problem)

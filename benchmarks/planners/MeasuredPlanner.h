@@ -105,10 +105,7 @@ namespace parking
         /** \brief Ends solve() after this time in seconds, independent of the caller's condition.
 
             ompl::tools::Benchmark checks its clock only every 0.1 s. */
-        void setTimeLimit(double seconds)
-        {
-            timeLimit_ = seconds;
-        }
+        void setTimeLimit(double seconds);
 
         /** \brief Sets the cost of the final path in the record; null: its length. */
         void setObjective(ompl::base::OptimizationObjectivePtr objective)

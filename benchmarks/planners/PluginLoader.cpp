@@ -1,12 +1,15 @@
 #include "benchmarks/planners/PluginLoader.h"
 
+#include "benchmarks/planners/PythonPlanner.h"
 #include "ompl_improved_astar/PlannerPlugin.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <boost/dll/shared_library.hpp>
 
+#include <exception>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include <dlfcn.h>
@@ -48,16 +51,22 @@ namespace parking
             std::size_t count_{0};
         };
 
-        void loadPlugin(PlannerRegistry &registry, const std::string &name)
+        void addPythonPlanner(PlannerRegistry &registry, const std::string &file)
+        {
+            const PythonPlannerFile description = readPythonPlanner(file);
+            registry.add({description.name,
+                          description.summary,
+                          description.improves,
+                          [description](const ompl::base::SpaceInformationPtr &si)
+                          { return std::make_shared<PythonPlanner>(si, description); },
+                          {},
+                          file});
+        }
+
+        void loadLibrary(PlannerRegistry &registry, const std::filesystem::path &file)
         {
             // Never unloaded, since it contains the code of allocators, planners and exceptions.
             static std::vector<boost::dll::shared_library> loaded;
-            std::error_code ignored;
-            const std::filesystem::path file = std::filesystem::absolute(name, ignored);
-            if (!std::filesystem::exists(file, ignored))
-                throw Error("plug-in " + name + ": there is no such file");
-            if (!std::filesystem::is_regular_file(file, ignored))
-                throw Error("plug-in " + name + ": is not a file; name the library");
             boost::system::error_code error;
             boost::dll::shared_library library;
             // Resolves all symbols immediately, so that a missing one is reported before any run.
@@ -65,38 +74,51 @@ namespace parking
             if (error)
             {
                 const char *reason = dlerror();
-                throw Error("plug-in " + name +
-                            ": cannot be loaded: " + oneLine(reason != nullptr ? reason : error.message()));
+                throw Error("cannot be loaded: " + oneLine(reason != nullptr ? reason : error.message()));
             }
             if (!library.has(ENTRY_POINT))
-                throw Error("plug-in " + name + ": has no entry point '" + ENTRY_POINT +
+                throw Error(std::string("has no entry point '") + ENTRY_POINT +
                             "'; use PARKING_PLANNER_PLUGIN of ompl_improved_astar/PlannerPlugin.h");
             const auto &plugin = library.get<const PlannerPlugin>(ENTRY_POINT);
             if (plugin.interfaceVersion != PLANNER_PLUGIN_VERSION)
-                throw Error("plug-in " + name + ": was built for version " + std::to_string(plugin.interfaceVersion) +
+                throw Error("was built for version " + std::to_string(plugin.interfaceVersion) +
                             " of the entry point, this program has version " + std::to_string(PLANNER_PLUGIN_VERSION) +
                             "; build it again");
             if (plugin.omplVersion != OMPL_VERSION_VALUE)
-                throw Error("plug-in " + name + ": was built against OMPL " + dotted(plugin.omplVersion) +
-                            ", this program against OMPL " + dotted(OMPL_VERSION_VALUE) + "; build it again");
+                throw Error("was built against OMPL " + dotted(plugin.omplVersion) + ", this program against OMPL " +
+                            dotted(OMPL_VERSION_VALUE) + "; build it again");
             Adder adder(registry, file.string());
             loaded.push_back(library);
-            try
-            {
-                plugin.addPlanners(adder);
-            }
-            catch (const std::exception &failure)
-            {
-                throw Error("plug-in " + name + ": " + oneLine(failure.what()));
-            }
+            plugin.addPlanners(adder);
             if (adder.count() == 0)
-                throw Error("plug-in " + name + ": adds no planner");
+                throw Error("adds no planner");
+        }
+
+        void loadPlugin(PlannerRegistry &registry, const std::string &name)
+        {
+            std::error_code ignored;
+            const std::filesystem::path file = std::filesystem::absolute(name, ignored);
+            if (!std::filesystem::exists(file, ignored))
+                throw Error("there is no such file");
+            if (!std::filesystem::is_regular_file(file, ignored))
+                throw Error("is not a file; name the library or the Python file");
+            if (file.extension() == ".py")
+                addPythonPlanner(registry, file.string());
+            else
+                loadLibrary(registry, file);
         }
     }  // namespace
 
-    void loadPlugins(PlannerRegistry &registry, const std::vector<std::string> &libraries)
+    void loadPlugins(PlannerRegistry &registry, const std::vector<std::string> &files)
     {
-        for (const std::string &library : libraries)
-            loadPlugin(registry, library);
+        for (const std::string &file : files)
+            try
+            {
+                loadPlugin(registry, file);
+            }
+            catch (const std::exception &failure)
+            {
+                throw Error("plug-in " + file + ": " + oneLine(failure.what()));
+            }
     }
 }  // namespace parking

@@ -38,6 +38,11 @@ namespace parking
         countsProcessorTime = processorTime;
     }
 
+    bool SolveRecord::isByProcessorTime()
+    {
+        return countsProcessorTime;
+    }
+
     void SolveRecord::begin()
     {
         const std::lock_guard<std::mutex> lock(mutex_);

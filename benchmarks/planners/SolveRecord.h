@@ -26,6 +26,9 @@ namespace parking
             change during a run. */
         static void countProcessorTime(bool processorTime);
 
+        /** \brief Whether processor time is counted. */
+        static bool isByProcessorTime();
+
         /** \brief Clears the record and starts the clock. */
         void begin();
 

@@ -1,6 +1,7 @@
 #include "benchmarks/summary/ReportScript.h"
 
 #include "benchmarks/system/Isolation.h"
+#include "benchmarks/system/ScriptFile.h"
 #include "parking_geometry/Error.h"
 
 #include <atomic>
@@ -8,7 +9,6 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <system_error>
 
 #include <unistd.h>
 
@@ -16,21 +16,6 @@ namespace fs = std::filesystem;
 
 namespace parking
 {
-    namespace
-    {
-        /** The script next to the installed program, or in the source folder of the build. */
-        std::string findScript()
-        {
-            std::error_code ignored;
-            const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-            for (const fs::path &script :
-                 {program.parent_path() / PARKING_REPORT_FROM_PROGRAM, fs::path(PARKING_REPORT_IN_SOURCE)})
-                if (fs::is_regular_file(script, ignored))
-                    return script.lexically_normal().string();
-            return "";
-        }
-    }  // namespace
-
     std::string makeReport(const std::string &folder)
     {
         constexpr int PACKAGES_MISSING = 3;
@@ -40,7 +25,7 @@ namespace parking
             std::cerr << "parking_benchmark: " << report << ": is not written: " << reason << std::endl;
             return std::string();
         };
-        const std::string script = findScript();
+        const std::string script = findScript("report/make_report");
         if (script.empty())
             return withoutReport("the script make_report is not installed");
         constexpr double PATIENT = std::numeric_limits<double>::infinity();

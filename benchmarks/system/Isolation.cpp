@@ -1,5 +1,6 @@
 #include "benchmarks/system/Isolation.h"
 
+#include "benchmarks/system/ChildProcess.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
@@ -19,7 +20,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -164,13 +164,6 @@ namespace parking
             }
         }
 
-        std::string signalText(int number)
-        {
-            const char *name = strsignal(number);
-            return "killed by signal " + std::to_string(number) +
-                   (name != nullptr ? std::string(" (") + name + ")" : "");
-        }
-
         /** The last line that is not blank: the error message in Python's output. */
         std::string lastLine(const std::string &text)
         {
@@ -186,12 +179,11 @@ namespace parking
         {
             const std::string last = lastLine(errors), more = last.empty() ? "" : ": " + last;
             if (!WIFSIGNALED(status))
-                return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + more,
-                        WEXITSTATUS(status), last};
+                return {End::Died, textOfEnd(status) + more, WEXITSTATUS(status), last};
             // Only the system does that.
             if (WTERMSIG(status) == SIGKILL)
                 return {End::OutOfMemory, "killed by the system, as happens when memory is exhausted"};
-            return {End::Died, signalText(WTERMSIG(status)) + more, -1, last};
+            return {End::Died, textOfEnd(status) + more, -1, last};
         }
 
         IsolatedResult readAnswer(const std::string &messages, std::size_t begin)
@@ -210,51 +202,8 @@ namespace parking
             }
         }
 
-        /** The process of the work; it does not outlive its parent. */
-        class Child
-        {
-        public:
-            explicit Child(pid_t process) : process_(process)
-            {
-                setpgid(process_, process_);
-            }
-            ~Child()
-            {
-                end();
-            }
-            Child(const Child &) = delete;
-            Child &operator=(const Child &) = delete;
-
-            bool hasEnded()
-            {
-                if (!ended_)
-                    ended_ = waitpid(process_, &status_, WNOHANG) == process_;
-                return ended_;
-            }
-
-            /** Kills the process if it still runs, and its children. \return its status */
-            int end()
-            {
-                kill(-process_, SIGKILL);
-                if (!ended_)
-                {
-                    kill(process_, SIGKILL);
-                    while (waitpid(process_, &status_, 0) < 0 && errno == EINTR)
-                    {
-                    }
-                }
-                ended_ = true;
-                return status_;
-            }
-
-        private:
-            pid_t process_;
-            bool ended_{false};
-            int status_{0};
-        };
-
         /** Waits for the answer, or for another end of the process. */
-        IsolatedResult await(Child &child, Pipe &messages, Pipe &errors, const IsolationLimits &limits,
+        IsolatedResult await(ChildProcess &child, Pipe &messages, Pipe &errors, const IsolationLimits &limits,
                              const std::atomic<bool> &stop)
         {
             const auto later = [](double seconds)
@@ -308,20 +257,15 @@ namespace parking
             throw Error(std::string("a process for a run cannot be started: ") + std::strerror(errno));
         if (process == 0)
         {
-            setpgid(0, 0);
-            prctl(PR_SET_PDEATHSIG, SIGKILL);
-            std::signal(SIGINT, SIG_DFL);
-            std::signal(SIGTERM, SIG_DFL);
-            const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-            if (getppid() != self || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0 ||
-                dup2(errors.ends[1], STDERR_FILENO) < 0)
+            beginChild(self);
+            if (dup2(STDIN_FILENO, STDOUT_FILENO) < 0 || dup2(errors.ends[1], STDERR_FILENO) < 0)
                 _exit(EXIT_FAILURE);
             messages.closeEnd(0);
             errors.closeEnd(0);
             answers = messages.ends[1];
             work(what, limits.memory);
         }
-        Child child(process);
+        ChildProcess child(process);
         messages.closeEnd(1);
         errors.closeEnd(1);
         fcntl(messages.ends[0], F_SETFL, O_NONBLOCK);
