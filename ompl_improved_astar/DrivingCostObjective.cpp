@@ -22,9 +22,6 @@ namespace parking
     {
         using search::MotionEnvironment;
 
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr double FARTHEST = 1e6;  // metres of a motion; clearances along it are sampled
-
         std::unique_ptr<MotionEnvironment> environmentOf(const ob::SpaceInformationPtr &si)
         {
             const ob::StateValidityCheckerPtr &checker = si->getStateValidityChecker();
@@ -38,44 +35,6 @@ namespace parking
             // Only clearances are requested, so that the step between states does not matter.
             return std::make_unique<StateSpaceEnvironment>(si, 1.0, StateSpacing{}, true);
         }
-
-        /** A straight line of a plain SE2 space, along which the heading changes linearly. */
-        struct Line
-        {
-            Pose from;
-            double x, y, turn, length;
-
-            Line(const Pose &begin, const Pose &end)
-              : from(begin),
-                x(end.x - begin.x),
-                y(end.y - begin.y),
-                turn(wrapAngle(end.yaw - begin.yaw)),
-                length(std::hypot(x, y))
-            {
-            }
-
-            /** The piece of a car that turns as far on the same length. */
-            PathPiece piece(double fullLock) const
-            {
-                const double mean = from.yaw + 0.5 * turn;
-                const double driven = std::copysign(length, x * std::cos(mean) + y * std::sin(mean));
-                return length > 0.0 ? PathPiece(std::clamp(turn / driven, -fullLock, fullLock), driven) : PathPiece();
-            }
-
-            double proximity(const search::CostModel &cost, MotionEnvironment &environment) const
-            {
-                const double samples = std::ceil(length / cost.sampleSpacing);
-                double nearer = 0.0;
-                for (double i = 0.5; i < samples; i += 1.0)
-                {
-                    const double share = i / samples;
-                    if (!environment.keeps({from.x + share * x, from.y + share * y, from.yaw + share * turn},
-                                           cost.preferredClearance))
-                        nearer += length / samples;
-                }
-                return cost.clearanceCost * nearer;
-            }
-        };
 
         constexpr double PlannerParameters::*WEIGHTS[] = {
             &PlannerParameters::reversePenalty, &PlannerParameters::gearChangePenalty,
@@ -144,21 +103,20 @@ namespace parking
         space_(*si->getStateSpace())
     {
         description_ = "Driving Cost";
+        const bool isPlain = space_.kind() == SpaceKind::SE2;
         try
         {
-            checkParameters(weights);
+            cost_.emplace(weights, isPlain ? 0.0 : space_.turningRadius());
         }
         catch (const Error &error)
         {
             throw ompl::Exception("DrivingCostObjective", error.what());
         }
-        const bool isPlain = space_.kind() == SpaceKind::SE2;
-        const double radius = isPlain ? weights.turningRadius : space_.turningRadius();
-        cost_ = search::costModel(weights, radius);
         // In a symmetric Dubins space a car may drive in both directions, one after the other.
         if (!isPlain)
-            curves_.emplace(
-                radius, si->getStateSpace()->hasSymmetricInterpolate() ? CurveFamily::ReedsShepp : CurveFamily::Dubins);
+            curves_.emplace(space_.turningRadius(), si->getStateSpace()->hasSymmetricInterpolate()
+                                                        ? CurveFamily::ReedsShepp
+                                                        : CurveFamily::Dubins);
     }
 
     ob::Cost DrivingCostObjective::stateCost(const ob::State * /*state*/) const
@@ -168,31 +126,14 @@ namespace parking
 
     double DrivingCostObjective::costAlong(const std::vector<const ob::State *> &states) const
     {
-        const std::unique_ptr<MotionEnvironment> environment = environmentOf(si_);
-        search::CostModel cost = cost_;
-        if (!environment->knowsClearance())
-            cost.clearanceCost = 0.0;
-        Path path;
-        double proximityOfLines = 0.0;
-        if (!states.empty())
-            path.start = poseOf(states.front());
-        for (std::size_t i = 1; i < states.size(); ++i)
+        std::vector<Pose> poses;
+        for (const ob::State *state : states)
+            poses.push_back(poseOf(state));
+        const auto curve = [&](std::size_t i, Path &path)
         {
-            const Line line(poseOf(states[i - 1]), poseOf(states[i]));
-            if (!(line.length <= FARTHEST && std::isfinite(line.turn)))
-                return INFINITE;
-            if (curves_)
-            {
-                space_.append(states[i - 1], states[i], path);
-                continue;
-            }
-            path.append(line.piece(cost.fullLockCurvature));
-            if (cost.prefersClearance())
-                proximityOfLines += line.proximity(cost, *environment);
-        }
-        if (!curves_)
-            cost.clearanceCost = 0.0;
-        return search::price(cost, std::move(path), *environment).cost + proximityOfLines;
+            space_.append(states[i - 1], states[i], path);
+        };
+        return cost_->along(poses, curve, *environmentOf(si_));
     }
 
     ob::Cost DrivingCostObjective::motionCost(const ob::State *from, const ob::State *to) const
@@ -209,7 +150,8 @@ namespace parking
     bool DrivingCostObjective::isSymmetric() const
     {
         // Proximity is sampled from the beginning of a motion.
-        return ob::OptimizationObjective::isSymmetric() && cost_.reversePenalty == 0.0 && !cost_.prefersClearance();
+        return ob::OptimizationObjective::isSymmetric() && cost_->model().reversePenalty == 0.0 &&
+               !cost_->model().prefersClearance();
     }
 
     ob::Cost DrivingCostObjective::cost(const ompl::geometric::PathGeometric &path) const

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/planning/DrivingCost.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "state_validity/ompl/CurveSpace.h"
@@ -47,8 +47,7 @@ namespace parking
         ompl::base::Cost stateCost(const ompl::base::State *state) const override;
 
         /** \brief Cost of the motion between two states; infinite if one is not finite or beyond a
-            thousand kilometres. Throws ompl::Exception if the
-            SpaceInformation has no validity checker. */
+            thousand kilometres. Throws ompl::Exception if the SpaceInformation has no validity checker. */
         ompl::base::Cost motionCost(const ompl::base::State *from, const ompl::base::State *to) const override;
 
         /** \brief Length in metres of the shortest curve between two states, of the straight line on a plain SE2 space.
@@ -66,7 +65,7 @@ namespace parking
 
         PlannerParameters weights_;
         CurveSpace space_;
-        search::CostModel cost_;
+        std::optional<search::DrivingCost> cost_;
         std::optional<ReedsShepp> curves_;  // none on a plain SE2 space
     };
 

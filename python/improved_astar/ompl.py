@@ -1,4 +1,4 @@
-"""Improved A* for OMPL's own Python package: a planner, and a validity checker for a car among obstacles.
+"""Improved A* for OMPL's own Python package: a planner, its cost as an objective, and checks of a car among obstacles.
 
     from improved_astar import Scenario
     from improved_astar.ompl import simpleSetup
@@ -28,44 +28,69 @@ try:
 except ImportError as error:
     raise ImportError("improved_astar.ompl needs OMPL 2.0.1 or later: pip install 'ompl>=2.0.1'") from error
 
-__all__ = ['FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator', 'simpleSetup']
+__all__ = ['DrivingCostObjective', 'FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator',
+           'pathCost', 'simpleSetup']
 
 MAX_SAMPLED_GOALS = 16   # read at first from a region
 MAX_LISTED_GOALS = 1000  # read at first from a list
 GOAL_ATTEMPTS = 1000     # samples of a region for a first valid or reachable goal
-LENGTH_ALONE = dict.fromkeys(('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty',
-                              'preferred_clearance', 'clearance_cost'), 0.0)  # the search minimises the length
+SUMMED_WEIGHTS = ('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty', 'clearance_cost')
+WEIGHTS = (*SUMMED_WEIGHTS, 'preferred_clearance', 'turning_radius')
 FARTHEST_DUBINS = 1e7    # turning radii from the origin, beyond which rounding may change OMPL's curves
 
 Status = ob.PlannerStatus
+Pose = Tuple[float, float, float]
 
 
-def _spaceOf(si: ob.SpaceInformation) -> Tuple[str, float]:
-    """Returns the kind of a planar space and the turning radius of its curves."""
-    space = si.getStateSpace()
-    if isinstance(space, ob.ReedsSheppStateSpace):
-        kind, unit = 'reeds_shepp', ob.ReedsSheppStateSpace(1.0)
-    elif isinstance(space, ob.DubinsStateSpace):
-        kind, unit = 'dubins', ob.DubinsStateSpace(1.0, space.hasSymmetricInterpolate())
-    elif isinstance(space, ob.SE2StateSpace):
-        return 'se2', 0.0
-    else:
-        raise Error(f'space must be an SE2, a Reeds-Shepp or a Dubins state space, not {type(space).__name__}')
-    # OMPL has no getter for the radius. A distance is proportional to it.
-    first, second = space.allocState(), space.allocState()
-    _put(first, (0.0, 0.0, 0.0))
-    _put(second, (0.0, 0.0, 0.5 * math.pi))
-    return kind, space.distance(first, second) / unit.distance(first, second)
+class _Space:
+    """A planar space as OMPL uses it: OMPL does not call what a class derived in Python overrides."""
+
+    def __init__(self, si: ob.SpaceInformation) -> None:
+        space = si.getStateSpace()
+        self.radius = 0.0  # of the curves in metres
+        if isinstance(space, ob.ReedsSheppStateSpace):
+            self.kind, base, unit = 'reeds_shepp', ob.ReedsSheppStateSpace, ob.ReedsSheppStateSpace(1.0)
+        elif isinstance(space, ob.DubinsStateSpace):
+            isSymmetric = ob.DubinsStateSpace.hasSymmetricInterpolate(space)
+            self.kind, base, unit = 'dubins', ob.DubinsStateSpace, ob.DubinsStateSpace(1.0, isSymmetric)
+        elif isinstance(space, ob.SE2StateSpace):
+            self.kind, base, unit = 'se2', ob.SE2StateSpace, None
+        else:
+            raise Error('space must be an SE2, a Reeds-Shepp or a Dubins state space, not '
+                        f'{type(space).__name__}')
+        self.allocState = functools.partial(base.allocState, space)
+        self.distance = functools.partial(base.distance, space)
+        self.interpolate = functools.partial(base.interpolate, space)
+        self.satisfiesBounds = functools.partial(base.satisfiesBounds, space)
+        self.isSymmetric = base.hasSymmetricInterpolate(space)
+        self._getBounds = functools.partial(base.getBounds, space)
+        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
+        self._first, self._last, self._between = self.allocState(), self.allocState(), self.allocState()
+        if unit is not None:  # OMPL has no getter for the radius. A distance is proportional to it.
+            ends = _put(self._first, (0.0, 0.0, 0.0)), _put(self._last, (0.0, 0.0, 0.5 * math.pi))
+            self.radius = self.distance(*ends) / unit.distance(*ends)
+
+    def bounds(self) -> Tuple[float, float, float, float]:
+        """Returns the smallest and the largest x, y."""
+        bounds = self._getBounds()
+        return (*bounds.low, *bounds.high)
+
+    def distanceBetween(self, first: Pose, last: Pose) -> float:
+        return self.distance(_put(self._first, first), _put(self._last, last))
+
+    def poseBetween(self, first: Pose, last: Pose, fraction: float) -> Pose:
+        self.interpolate(_put(self._first, first), _put(self._last, last), fraction, self._between)
+        return _poseOf(self._between)
 
 
-def _put(state: ob.State, pose: Tuple[float, float, float]) -> ob.State:
+def _put(state: ob.State, pose: Pose) -> ob.State:
     state.setX(pose[0])
     state.setY(pose[1])
     state.setYaw(pose[2])
     return state
 
 
-def _poseOf(state: ob.State) -> Tuple[float, float, float]:
+def _poseOf(state: ob.State) -> Pose:
     try:
         return state.getX(), state.getY(), state.getYaw()
     except AttributeError:
@@ -86,7 +111,7 @@ def _isList(goal: ob.GoalSampleableRegion) -> bool:
     return isinstance(goal, ob.GoalStates) or goal.maxSampleCount() <= MAX_LISTED_GOALS
 
 
-def _storedGoals(goal: ob.Goal) -> List[Tuple[float, float, float]]:
+def _storedGoals(goal: ob.Goal) -> List[Pose]:
     """Returns the goals that OMPL has stored so far: those of a goal state or a list."""
     if isinstance(goal, ob.GoalState):
         return [_poseOf(goal.getState())]
@@ -121,8 +146,7 @@ class FootprintChecker(ob.StateValidityChecker):
     def __init__(self, si: ob.SpaceInformation, world: Any, vehicle: Union[None, str, Vehicle] = None, *,
                  resolution: Optional[float] = None, origin: Optional[ArrayLike] = None) -> None:
         super().__init__(si)
-        _spaceOf(si)
-        self._space = si.getStateSpace()
+        self._space = _Space(si)
         self.scenario = _scenarioOf(si, world, vehicle, resolution, origin)
         self.footprint = _core._Footprint(self.scenario)
 
@@ -144,22 +168,135 @@ class SweptMotionValidator(ob.MotionValidator):
     def __init__(self, si: ob.SpaceInformation, checker: FootprintChecker) -> None:
         super().__init__(si)
         self.checker = checker
-        self._space = si.getStateSpace()
-        self._kind, radius = _spaceOf(si)
-        self._curvature = 1.0 / radius if radius else 0.0
+        self._space = _Space(si)
+        self._curvature = 1.0 / self._space.radius if self._space.radius else 0.0
         self._between = self._space.allocState()
 
     def checkMotion(self, first: ob.State, last: ob.State) -> bool:
         if not self.checker.isValid(last):
             return False
-        if self._kind == 'se2':
+        if self._space.kind == 'se2':
             return self.checker.footprint.is_line_free(*_poseOf(first), *_poseOf(last))
 
-        def at(fraction: float) -> Optional[Tuple[float, float, float]]:
+        def at(fraction: float) -> Optional[Pose]:
             self._space.interpolate(first, last, fraction, self._between)
             return _poseOf(self._between) if self._space.satisfiesBounds(self._between) else None
 
         return self.checker.footprint.is_curve_free(at, self._space.distance(first, last), self._curvature)
+
+
+class DrivingCostObjective(ob.OptimizationObjective):
+    """The cost that ImprovedAStar minimises, as an objective for any planner: length, driving in reverse, changes of
+    direction, steering, and passing obstacles closely. The unit is a metre driven forwards with sufficient clearance.
+
+    weights: reverse_penalty, gear_change_penalty, steering_change_penalty, preferred_clearance, clearance_cost; on a
+    plain SE2 space also turning_radius. improved_astar.parameters() documents them. The distance to obstacles is that
+    of the validity checker; without one that has a method clearance(), proximity costs nothing.
+
+    OMPL adds up the costs of motions. Changes of direction and steering between two motions are free in this sum;
+    pathCost() includes them.
+    """
+
+    def __init__(self, si: ob.SpaceInformation, **weights: float) -> None:
+        super().__init__(si)
+        self._si, self._space = si, _Space(si)
+        for name in weights:
+            if name not in WEIGHTS:
+                raise Error(f"'{name}' is not a weight of the driving cost; these are {', '.join(WEIGHTS)}")
+        self._parameters = _core._with_parameters(weights)
+        self._checker: Any = None
+        self._known: Any = None
+
+    @property
+    def weights(self) -> Dict[str, float]:
+        """All weights."""
+        return {name: self._parameters[name] for name in WEIGHTS}
+
+    def _costs(self) -> Any:
+        """Returns the costs with the clearances of the current checker."""
+        checker = self._si.getStateValidityChecker()
+        if checker is None:
+            raise Error('the driving cost requires a validity checker: set that of the SpaceInformation first')
+        if self._known is None or checker is not self._checker:
+            clearance: Any = None
+            if type(checker) is FootprintChecker:
+                clearance = checker.footprint
+            elif type(checker).clearance is not ob.StateValidityChecker.clearance:
+                state = self._space.allocState()
+
+                def clearance(*pose: float) -> float:
+                    return checker.clearance(_put(state, pose))
+            self._checker, self._known = checker, _core._DrivingCosts(self._space, clearance, self._parameters)
+        return self._known
+
+    def stateCost(self, state: ob.State) -> ob.Cost:
+        """Returns zero: only motions cost."""
+        return ob.Cost(0.0)
+
+    def motionCost(self, first: ob.State, last: ob.State) -> ob.Cost:
+        """Returns the cost of the motion between two states; infinite if one is not finite."""
+        return ob.Cost(self._costs().along((_poseOf(first), _poseOf(last))))
+
+    def motionCostHeuristic(self, first: ob.State, last: ob.State) -> ob.Cost:
+        """Returns a lower bound: the length of the shortest curve between two states."""
+        return ob.Cost(self._costs().lower_bound(_poseOf(first), _poseOf(last)))
+
+    def isSymmetric(self) -> bool:
+        """Returns whether motions cost the same in both directions."""
+        return self._costs().is_symmetric
+
+    def cost(self, path: og.PathGeometric) -> ob.Cost:
+        """Returns the cost of a whole path, with the changes of direction and steering between its motions."""
+        return ob.Cost(self._costs().along([_poseOf(state) for state in path.getStates()]))
+
+
+def _costBetweenMotions(path: og.PathGeometric, objective: ob.OptimizationObjective) -> float:
+    """Returns the part of a driving cost, also within a sum, that OMPL's cost of a path lacks."""
+    if type(objective) is DrivingCostObjective:
+        return objective.cost(path).value() - path.cost(objective).value()
+    if type(objective) is ob.MultiOptimizationObjective:
+        return sum(objective.getObjectiveWeight(index) * _costBetweenMotions(path, objective.getObjective(index))
+                   for index in range(objective.getObjectiveCount()))
+    return 0.0
+
+
+def pathCost(path: og.PathGeometric, objective: ob.OptimizationObjective) -> ob.Cost:
+    """Returns the cost of a whole path: that of OMPL, with the changes between motions for a DrivingCostObjective, also
+    within a sum."""
+    if type(objective) is DrivingCostObjective:
+        return objective.cost(path)
+    return ob.Cost(path.cost(objective).value() + _costBetweenMotions(path, objective))
+
+
+def _summands(objective: Optional[ob.OptimizationObjective], factor: float = 1.0) -> Iterator[Tuple[float, Any]]:
+    if type(objective) is not ob.MultiOptimizationObjective:
+        yield factor, objective
+        return
+    for index in range(objective.getObjectiveCount()):
+        yield from _summands(objective.getObjective(index), factor * objective.getObjectiveWeight(index))
+
+
+def _searchParameters(objective: Optional[ob.OptimizationObjective], own: Dict[str, Any]) -> Dict[str, Any]:
+    """Returns the parameters of a search by the objective: those of the planner with the weights of lengths, driving
+    costs and their sums; for any other objective and for sums that are not a cost of the search, the planner's own."""
+    length, weights = 0.0, dict.fromkeys((*SUMMED_WEIGHTS, 'preferred_clearance'), 0.0)
+    for factor, part in _summands(objective):
+        isDriving = type(part) is DrivingCostObjective
+        if not (isDriving or type(part) is ob.PathLengthOptimizationObjective) or not factor >= 0.0:
+            return own
+        length += factor
+        if not isDriving or factor == 0.0:
+            continue
+        known = weights['preferred_clearance'] if weights['clearance_cost'] > 0.0 else None
+        for name in SUMMED_WEIGHTS:
+            weights[name] += factor * part.weights[name]
+        if part.weights['clearance_cost'] > 0.0:
+            weights['preferred_clearance'] = part.weights['preferred_clearance']
+            if known not in (None, weights['preferred_clearance']):
+                return own
+    if not 0.0 < length < math.inf:
+        return own
+    return {**own, **weights, **{name: weights[name] / length for name in SUMMED_WEIGHTS}}
 
 
 class Parameters(collections.abc.Mapping):
@@ -199,8 +336,8 @@ class Parameters(collections.abc.Mapping):
 class _World:
     """OMPL's objects as the core uses them. Poses are rows x, y, yaw."""
 
-    def __init__(self, si: ob.SpaceInformation) -> None:
-        self._si, self._space = si, si.getStateSpace()
+    def __init__(self, si: ob.SpaceInformation, space: _Space) -> None:
+        self._si, self._space = si, space
         # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
         self._first, self._last = self._space.allocState(), self._space.allocState()
         self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
@@ -209,12 +346,12 @@ class _World:
     def freeCounts(self, rows: numpy.ndarray, parts: List[int]) -> Optional[List[int]]:
         """Returns the number of valid rows at the beginning of each part, or None once the time limit is met."""
         if self.areValid is not None:
-            bounds = self._space.getBounds()
+            bounds = self._space.bounds()
             valid = numpy.asarray(self.areValid(rows), dtype=bool)
             if valid.shape != (len(rows),):
                 raise Error(f'areValid() must return one bool for each of {len(rows)} poses, not an array of shape '
                             f'{valid.shape}')
-            valid &= ((rows[:, :2] >= bounds.low) & (rows[:, :2] <= bounds.high)).all(axis=1)
+            valid &= ((rows[:, :2] >= bounds[:2]) & (rows[:, :2] <= bounds[2:])).all(axis=1)
             pieces = numpy.split(valid, numpy.cumsum(parts)[:-1])
             return [len(piece) if piece.all() else int(piece.argmin()) for piece in pieces]
         poses, counts, begin = rows.tolist(), [], 0
@@ -242,7 +379,7 @@ class _World:
         return len(poses) - 1
 
     def distance(self, *poses: float) -> float:
-        return self._space.distance(_put(self._first, poses[:3]), _put(self._last, poses[3:]))
+        return self._space.distanceBetween(poses[:3], poses[3:])
 
 
 class ImprovedAStar(ob.Planner):
@@ -250,16 +387,15 @@ class ImprovedAStar(ob.Planner):
 
     Supports any validity checker. With a FootprintChecker the search stays in C++. A checker with a method
     areValid(poses), which maps n rows x, y, yaw to n bool, is called in batches. Parameters are set by name here, or
-    later through params(). With OMPL's path length as the objective the search minimises the length; any other
-    objective is evaluated for each path found.
+    later through params(). The search minimises OMPL's path length, a DrivingCostObjective or a sum of these if that is
+    the objective of the problem; any other objective is evaluated for each path found.
     """
 
     def __init__(self, si: ob.SpaceInformation, name: str = 'ImprovedAStar', **parameters: Any) -> None:
         super().__init__(si, name)
-        self._kind, self._radius = _spaceOf(si)
-        self._si, self._space = si, si.getStateSpace()
+        self._si, self._space = si, _Space(si)
         self._params = Parameters(parameters)
-        self._world, self._state = _World(si), self._space.allocState()
+        self._world, self._state = _World(si, self._space), self._space.allocState()
         self._dataStates: List[ob.State] = []
         self._inputs = ob.PlannerInputStates()
         self._clearQuery()
@@ -286,9 +422,9 @@ class ImprovedAStar(ob.Planner):
         self._query: Any = None
         self._asked: Tuple[Any, ...] = ()
         self._reason = ''
-        self._starts: List[Tuple[float, float, float]] = []
-        self._goals: List[Tuple[float, float, float]] = []
-        self._storedGoals: List[Tuple[float, float, float]] = []
+        self._starts: List[Pose] = []
+        self._goals: List[Pose] = []
+        self._storedGoals: List[Pose] = []
         self._otherGoals = 0
         self._bestCost: Any = None
         self._inputs.clear()
@@ -310,8 +446,9 @@ class ImprovedAStar(ob.Planner):
         self.checkValidity()
         pdef, si = self.getProblemDefinition(), self._si
         goal = pdef.getGoal()
-        asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), pdef.getOptimizationObjective(),
-                 self._params.current)
+        objective, own = pdef.getOptimizationObjective(), self._params.current
+        asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), objective, own,
+                 _searchParameters(objective, own))
         starts, storedGoals = self._validStarts(pdef), _storedGoals(goal)
         if self._query is not None and not (all(a is b or a == b for a, b in zip(asked, self._asked))
                                             and starts[:len(self._starts)] == self._starts
@@ -344,7 +481,7 @@ class ImprovedAStar(ob.Planner):
         return self._search(goal, ptc, fallback)
 
     @staticmethod
-    def _validStarts(pdef: ob.ProblemDefinition) -> List[Tuple[float, float, float]]:
+    def _validStarts(pdef: ob.ProblemDefinition) -> List[Pose]:
         """Returns the valid starts of a problem. Reading all of them each time detects starts that were replaced."""
         inputs, starts = ob.PlannerInputStates(), []
         inputs.use(pdef)
@@ -353,20 +490,17 @@ class ImprovedAStar(ob.Planner):
         return starts
 
     def _begin(self, asked: Tuple[Any, ...]) -> None:
-        _, _, checker, validator, objective, parameters = self._asked = asked
-        if type(objective) is ob.PathLengthOptimizationObjective:
-            parameters = {**parameters, **LENGTH_ALONE}
-        bounds = self._space.getBounds()
-        box = (*bounds.low, *bounds.high)
+        _, _, checker, validator, _, own, parameters = self._asked = asked
+        kind, radius, box = self._space.kind, self._space.radius, self._space.bounds()
         footprint = checker.footprint if type(checker) is FootprintChecker else None
         isOwn = footprint is not None and type(validator) is SweptMotionValidator and \
             validator.checker.footprint is footprint
-        mayDeviate = self._kind == 'dubins' and max(map(abs, box)) > FARTHEST_DUBINS * self._radius
-        isSwept = isOwn and self._kind != 'se2' and parameters['steering_angles'] == 3 and not mayDeviate
+        mayDeviate = kind == 'dubins' and max(map(abs, box)) > FARTHEST_DUBINS * radius
+        isSwept = isOwn and kind != 'se2' and parameters['steering_angles'] == 3 and not mayDeviate
         self._world.areValid = getattr(checker, 'areValid', None)
-        self._query = _core._OmplQuery(self._world, footprint, self._kind, self._radius, box,
-                                       self._space.getLongestValidSegmentLength(), isSwept,
-                                       isOwn and self._kind == 'se2', parameters)
+        self._query = _core._OmplQuery(self._world, footprint, kind, radius, box,
+                                       self._si.getStateSpace().getLongestValidSegmentLength(), isSwept,
+                                       isOwn and kind == 'se2', parameters, own)
 
     def _addGoal(self, state: Optional[ob.State]) -> bool:
         if state is None or not self._query.add_goal(*_poseOf(state)):
@@ -409,7 +543,7 @@ class ImprovedAStar(ob.Planner):
                 return True
         return False
 
-    def _anyGoal(self, goal: ob.GoalSampleableRegion) -> Optional[Tuple[float, float, float]]:
+    def _anyGoal(self, goal: ob.GoalSampleableRegion) -> Optional[Pose]:
         if goal.maxSampleCount() == 0:
             return None
         if isinstance(goal, ob.GoalStates):
@@ -418,12 +552,12 @@ class ImprovedAStar(ob.Planner):
         return _poseOf(self._state)
 
     def _search(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition,
-                fallback: Optional[Tuple[float, float, float]]) -> ob.PlannerStatus.PlannerStatusType:
+                fallback: Optional[Pose]) -> ob.PlannerStatus.PlannerStatusType:
         query, pdef = self._query, self.getProblemDefinition()
         objective = pdef.getOptimizationObjective()
 
         def judge(rows: numpy.ndarray) -> int:
-            cost = self._path(rows).cost(objective)
+            cost = pathCost(self._path(rows), objective)
             if self._bestCost is not None and not objective.isCostBetterThan(cost, self._bestCost):
                 return 0
             self._bestCost = cost
@@ -460,7 +594,7 @@ class ImprovedAStar(ob.Planner):
         return path
 
     def _differenceFromGoal(self, goal: ob.GoalSampleableRegion, state: ob.State,
-                            target: Tuple[float, float, float]) -> float:
+                            target: Pose) -> float:
         if not isinstance(goal, (ob.GoalState, ob.GoalStates)):
             return goal.isSatisfiedWithDistance(state)[1]
         # The goal itself would measure the distance to states out of bounds, which ends the program.

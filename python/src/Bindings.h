@@ -16,6 +16,7 @@ namespace parking::python
     void addParking(pybind11::module_ &module);       ///< adds ParkingPlan, ParkingPlanner
     void addReferee(pybind11::module_ &module);       ///< adds Verdict, check()
     void addOmplPlanning(pybind11::module_ &module);  ///< adds what improved_astar.ompl is made of
+    void addDrivingCosts(pybind11::module_ &module);  ///< adds the costs of its DrivingCostObjective
 
     /** \brief Adds the properties of Drive, the common base of both kinds of results. */
     void addPathProperties(pybind11::class_<PathHandle, std::shared_ptr<PathHandle>> &type);

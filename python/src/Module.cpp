@@ -51,6 +51,7 @@ PYBIND11_MODULE(_core, module)
     parking::python::addParking(module);
     parking::python::addReferee(module);
     parking::python::addOmplPlanning(module);
+    parking::python::addDrivingCosts(module);
     // For the project's Python programs, so that they read, write and report errors as those in C++ do.
     module.def("_read_file", [](const std::filesystem::path &file, std::size_t limit)
                { return py::bytes(parking::readFile(file.string(), limit)); });

@@ -1,5 +1,5 @@
-// The core's part of improved_astar.ompl: footprint checks and a query of the planner. OMPL's own objects are
-// accessible only in that module, which the core calls.
+// The core's part of improved_astar.ompl: a query of the planner. OMPL's own objects are accessible only in that
+// module, which the core calls.
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
@@ -7,9 +7,9 @@
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
 #include "python/src/Bindings.h"
+#include "python/src/Footprint.h"
 #include "python/src/Handles.h"
 #include "python/src/Values.h"
-#include "state_validity/sweeps/ClearanceProof.h"
 
 #include <pybind11/stl.h>
 
@@ -22,9 +22,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,13 +30,6 @@ namespace parking::python
 {
     namespace
     {
-        /** Wraps a heading to OMPL's range [-pi, pi). */
-        double omplYaw(double yaw)
-        {
-            const double wrapped = wrapAngle(yaw);
-            return wrapped == PI ? -PI : wrapped;
-        }
-
         py::array_t<double> rowsOf(const std::vector<Pose> &poses)
         {
             py::array_t<double> rows({static_cast<py::ssize_t>(poses.size()), py::ssize_t{3}});
@@ -48,108 +39,6 @@ namespace parking::python
                     *to++ = value;
             return rows;
         }
-
-        /** Conversion between the world coordinates of OMPL's states and the local ones of the core. Poses of the
-            scenario keep their exact local values, which a subtraction would round. */
-        class Frame
-        {
-        public:
-            Frame() = default;
-
-            explicit Frame(const Scenario &scenario) : offset_(scenario.worldOffset), bounds_(scenario.bounds)
-            {
-                known_ = scenario.goals;
-                known_.push_back(scenario.start);
-            }
-
-            Pose toLocal(const Pose &world) const
-            {
-                for (const Pose &pose : known_)
-                    if (pose.x + offset_.x() == world.x && pose.y + offset_.y() == world.y)
-                        return {pose.x, pose.y, world.yaw};
-                return {world.x - offset_.x(), world.y - offset_.y(), world.yaw};
-            }
-
-            Box toLocal(const Box &world) const
-            {
-                if (bounds_ && world.min == bounds_->min + offset_ && world.max == bounds_->max + offset_)
-                    return *bounds_;
-                return {world.min - offset_, world.max - offset_};
-            }
-
-            Pose toWorld(const Pose &local) const
-            {
-                return {local.x + offset_.x(), local.y + offset_.y(), omplYaw(local.yaw)};
-            }
-
-        private:
-            Eigen::Vector2d offset_{0.0, 0.0};
-            std::optional<Box> bounds_;
-            std::vector<Pose> known_;
-        };
-
-        /** Footprint checks of single poses and motions. The constructor builds the distance field. */
-        class Footprint
-        {
-        public:
-            explicit Footprint(const py::object &scenario) : scenario_(scenarioFrom(scenario, "scenario"))
-            {
-                const py::gil_scoped_release release;
-                checker_ = &scenario_->planner().footprint();
-                frame_ = Frame(scenario_->scenario());
-            }
-
-            const FootprintChecker &checker() const
-            {
-                return *checker_;
-            }
-
-            const Frame &frame() const
-            {
-                return frame_;
-            }
-
-            bool isFree(double x, double y, double yaw) const
-            {
-                return checker_->isFree(frame_.toLocal(Pose{x, y, yaw}));
-            }
-
-            double clearance(double x, double y, double yaw) const
-            {
-                return checker_->clearance(frame_.toLocal(Pose{x, y, yaw}));
-            }
-
-            bool isLineFree(const Pose &from, const Pose &to) const
-            {
-                CheckCounts counts;
-                return ClearanceProof(*checker_, FootprintEnvironment::TOLERANCE)
-                    .proveLine(from, to, false, counts)
-                    .whole;
-            }
-
-            /** Whether a curve of the space is free. at(t) returns the pose at a fraction of it, or None out of bounds.
-             */
-            bool isCurveFree(const py::function &at, double length, double curvature) const
-            {
-                const auto pose = [&](double t)
-                {
-                    const py::object answer = at(t);
-                    if (answer.is_none())
-                        return Pose{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};  // which is not free
-                    const auto [x, y, yaw] = py::cast<std::tuple<double, double, double>>(answer);
-                    return frame_.toLocal(Pose{x, y, yaw});
-                };
-                CheckCounts counts;
-                return ClearanceProof(*checker_, FootprintEnvironment::TOLERANCE)
-                    .prove(pose, length * checker_->speedFactor(curvature), false, counts)
-                    .whole;
-            }
-
-        private:
-            ScenarioPointer scenario_;
-            const FootprintChecker *checker_{nullptr};
-            Frame frame_;
-        };
 
         /** Calls Python while C++ runs without the GIL. An exception is stored and ends the work like a time limit. */
         class Calls
@@ -370,9 +259,11 @@ namespace parking::python
         public:
             OmplQuery(const py::object &world, const std::shared_ptr<const Footprint> &footprint,
                       const std::string &space, double turningRadius, const std::array<double, 4> &bounds,
-                      double segmentLength, bool isSwept, bool hasOwnLines, const py::dict &parameters)
+                      double segmentLength, bool isSwept, bool hasOwnLines, const py::dict &parameters,
+                      const py::dict &own)
               : footprint_(footprint),
                 parameters_(parametersFrom(parameters)),
+                own_(parametersFrom(own)),
                 world_(world),
                 isPlain_(space == "se2"),
                 turnsOnTheSpot_(search::turnsOnTheSpot(parameters_.motionModel)),
@@ -384,7 +275,7 @@ namespace parking::python
                                 "loops. Use motion_model car there");
                 if (footprint_)
                     frame_ = footprint_->frame();
-                const Box box = frame_.toLocal(Box{{bounds[0], bounds[1]}, {bounds[2], bounds[3]}});
+                const Box box = frame_.toLocal(bounds);
                 spacing_ = stateSpacing(isPlain_, radius_, turnsOnTheSpot_);
                 if (space == "reeds_shepp")
                     spacing_.curveLength = [this](const Pose &from, const Pose &to)
@@ -405,19 +296,19 @@ namespace parking::python
                         endAtGoal(poses, goals_, spacing_, turnsOnTheSpot_);
                     return poses;
                 };
-                search::MotionEnvironment *environment = asPython_.get();
+                environment_ = asPython_.get();
                 if (footprint_ && !turnsOnTheSpot_)
                 {
                     car_ = search::carInSpace(footprint_->checker().vehicle(), 0.0, box);
                     swept_ = std::make_unique<FootprintEnvironment>(footprint_->checker(), box,
                                                                     FootprintEnvironment::TOLERANCE,
                                                                     isSwept ? nullptr : asPython_.get());
-                    environment = swept_.get();
+                    environment_ = swept_.get();
                 }
                 car_.bounds = box;
                 car_.turningRadius = radius_;
                 car_.forwardOnly = space == "dubins";
-                planner_.begin(*environment, parameters_, car_);
+                planner_.begin(*environment_, parameters_, car_);
             }
 
             void addStart(double x, double y, double yaw)
@@ -449,8 +340,17 @@ namespace parking::python
                 calls_.begin(condition);
                 {
                     const py::gil_scoped_release release;
-                    outcome = planner_.solve([this] { return calls_.isOver(); }, [&](const Path &path, double /*cost*/)
-                                             { return takeImprovement(path, judge); });
+                    const auto stop = [this]
+                    {
+                        return calls_.isOver();
+                    };
+                    const auto improved = [&](const Path &path, double /*cost*/)
+                    {
+                        return takeImprovement(path, judge);
+                    };
+                    outcome = planner_.solve(stop, improved);
+                    if (outcome == Outcome::Solved && !parameters_.anytime)
+                        offerPathOfOwnWeights(stop, improved);
                 }
                 calls_.end();
                 return outcome == Outcome::Solved ? "solved" : outcome == Outcome::Exhausted ? "exhausted" : "stopped";
@@ -551,6 +451,24 @@ namespace parking::python
                 return result;
             }
 
+            /** The path by the weights of an objective must not cost more than that by the planner's own, and may do so
+                in another local optimum. */
+            void offerPathOfOwnWeights(const search::StopFunction &stop, const search::ImprovementFunction &improved)
+            {
+                if (parameters_ == own_ || isCompared_ || isSatisfied_)
+                    return;
+                isCompared_ = true;
+                search::PathPlanner own;
+                own.begin(*environment_, own_, car_);
+                for (const Pose &start : starts_)
+                    own.addStart(frame_.toLocal(start));
+                for (const Pose &goal : goals_)
+                    own.addGoal(goal);
+                own.solve(stop, {});
+                if (own.hasSolution())
+                    planner_.offer(own.bestPath(), stop, improved);
+            }
+
             /** Length by OMPL's distance in a plain SE2 space. */
             static double lengthOf(const std::vector<Pose> &poses)
             {
@@ -582,11 +500,12 @@ namespace parking::python
                 path_ = path;
                 solution_ = states;
                 cost_ = cost;
-                return verdict == 2;
+                isSatisfied_ = verdict == 2;
+                return isSatisfied_;
             }
 
             std::shared_ptr<const Footprint> footprint_;
-            PlannerParameters parameters_;
+            PlannerParameters parameters_, own_;  // of the search, and without an objective
             py::object world_;
             bool isPlain_, turnsOnTheSpot_;
             double radius_;
@@ -596,9 +515,10 @@ namespace parking::python
             search::CarInSpace car_;
             std::unique_ptr<PythonEnvironment> asPython_;
             std::unique_ptr<FootprintEnvironment> swept_;
+            search::MotionEnvironment *environment_{nullptr};  // one of these
             search::PathPlanner planner_;
             std::vector<Pose> starts_, worldGoals_, goals_;
-            bool hasSolution_{false};
+            bool hasSolution_{false}, isSatisfied_{false}, isCompared_{false};
             Path path_;
             double cost_{std::numeric_limits<double>::infinity()};
             std::vector<Pose> solution_, states_;
@@ -632,10 +552,10 @@ namespace parking::python
             .def(py::init(
                 [](const py::object &world, const std::shared_ptr<Footprint> &footprint, const std::string &space,
                    double turningRadius, const std::array<double, 4> &bounds, double segmentLength, bool isSwept,
-                   bool hasOwnLines, const py::dict &parameters)
+                   bool hasOwnLines, const py::dict &parameters, const py::dict &own)
                 {
                     return std::make_unique<OmplQuery>(world, footprint, space, turningRadius, bounds, segmentLength,
-                                                       isSwept, hasOwnLines, parameters);
+                                                       isSwept, hasOwnLines, parameters, own);
                 }))
             .def("add_start", &OmplQuery::addStart)
             .def("add_goal", &OmplQuery::addGoal)

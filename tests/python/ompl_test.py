@@ -58,21 +58,41 @@ def test_answers_for_several_poses_are_those_for_each():
     assert list(world.clearance_at(poses)) == [world.clearance_at(pose[None])[0] for pose in poses]
 
 
+def objectiveNamed(name, si):
+    if name == 'length':
+        return ob.PathLengthOptimizationObjective(si)
+    return iao.DrivingCostObjective(si, reverse_penalty=0.7, gear_change_penalty=2.5, steering_change_penalty=0.3,
+                                    preferred_clearance=0.4, clearance_cost=3.0)
+
+
+def expectSameCosts(path, objective, wanted):
+    step, states = 7, path.getStates()
+    costs = [[objective.motionCost(a, b).value(), objective.motionCost(b, a).value()]
+             for a, b in zip(states, states[step:])]
+    assert numpy.array(costs).ravel() == pytest.approx(wanted['motion'].ravel(), abs=1e-6)
+    assert iao.pathCost(path, objective).value() == pytest.approx(wanted['cost'][0, 0], abs=1e-6)
+
+
 @pytest.mark.parametrize('name', BUNDLED)
-def test_the_path_is_that_of_the_planner_in_cpp(name):
+@pytest.mark.parametrize('objective', ['', 'length', 'driving'])
+def test_the_path_is_that_of_the_planner_in_cpp(name, objective):
     setup = iao.simpleSetup(scenario(name))
+    if objective:
+        setup.setOptimizationObjective(objectiveNamed(objective, setup.getSpaceInformation()))
     assert solve(setup) == Type.EXACT_SOLUTION
     path, pieces = setup.getSolutionPath(), setup.getPlanner().pieces()
     program = os.environ.get('OMPL_PATH', '')
     if os.path.exists(program):
-        lines = subprocess.run([program, os.path.join(SCENARIOS, name)], capture_output=True, text=True, check=True,
-                               timeout=120).stdout.splitlines()
+        command = [program, os.path.join(SCENARIOS, name), *filter(None, [objective])]
+        lines = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout.splitlines()
         wanted = {kind: numpy.array([[float.fromhex(word) for word in line.split()[1:]] for line in lines
-                                     if line.startswith(kind)]) for kind in ('state', 'piece')}
+                                     if line.startswith(kind)]) for kind in ('state', 'piece', 'cost', 'motion')}
         assert numpy.array_equal(pieces, wanted['piece'])
         assert numpy.array_equal(rows(path)[1:-1], wanted['state'][1:-1])
         assert rows(path) == pytest.approx(wanted['state'], abs=1e-12)  # the ends are those that were given
-    else:
+        if objective:
+            expectSameCosts(path, setup.getOptimizationObjective(), wanted)
+    elif not objective:
         assert pieces == pytest.approx(ia.plan(scenario(name), time_limit=30).pieces, abs=1e-9)
     assert tuple(rows(path)[0]) == scenario(name).start and tuple(rows(path)[-1]) in scenario(name).goals
     assert setup.getProblemDefinition().getSolutionDifference() == 0.0 and path.check()
@@ -177,6 +197,207 @@ def test_the_search_minimises_path_length_if_that_is_the_objective():
     assert numpy.array_equal(found['length'], found['penalties'])
     assert numpy.array_equal(found['evaluated'], found['none'])
     assert numpy.abs(found['length'][:, 1]).sum() < numpy.abs(found['none'][:, 1]).sum()
+
+
+DRIVING = {'reverse_penalty': 1.5, 'gear_change_penalty': 3.0, 'steering_change_penalty': 0.7,
+           'preferred_clearance': 0.4, 'clearance_cost': 6.0}
+
+
+def pathThrough(setup, poses):
+    path = og.PathGeometric(setup.getSpaceInformation())
+    for pose in poses:
+        path.append(state(setup, pose))
+    return path
+
+
+def test_the_driving_cost_counts_changes_within_motions_and_between_them():
+    setup = iao.simpleSetup(wall([], start=(-10, -10, 0), goal=(10, 10, 0)))
+    objective = iao.DrivingCostObjective(setup.getSpaceInformation(), **DRIVING)
+    radius = setup.getPlanner()._space.radius
+    quarter = (3.0 + radius, radius, 0.5 * math.pi)
+    path = pathThrough(setup, [(0, 0, 0), (5, 0, 0), (3, 0, 0), quarter])
+    turn = 0.5 * math.pi * radius
+    assert path.cost(objective).value() == pytest.approx(5.0 + 2.0 * 2.5 + turn)
+    assert iao.pathCost(path, objective).value() == pytest.approx(5.0 + 2.0 * 2.5 + turn + 3.0 + 3.0 + 0.7)
+    both = ob.MultiOptimizationObjective(setup.getSpaceInformation())
+    both.addObjective(objective, 0.5)
+    both.addObjective(ob.PathLengthOptimizationObjective(setup.getSpaceInformation()), 2.0)
+    assert iao.pathCost(path, both).value() == pytest.approx(0.5 * objective.cost(path).value() + 2.0 * path.length())
+    ends = state(setup, (0, 0, 0)), state(setup, quarter)
+    assert objective.motionCost(*ends).value() == pytest.approx(3.0 + 0.7 + turn)
+    assert objective.motionCostHeuristic(*ends).value() == pytest.approx(3.0 + turn)
+    assert objective.stateCost(ends[0]).value() == 0.0 and not objective.isSymmetric()
+    assert iao.DrivingCostObjective(setup.getSpaceInformation(), reverse_penalty=0, clearance_cost=0).isSymmetric()
+    assert iao.pathCost(pathThrough(setup, [quarter]), objective).value() == 0.0
+    assert objective.motionCost(ends[0], state(setup, (math.nan, 0, 0))).value() == math.inf
+
+
+def test_the_driving_cost_of_lines_and_of_symmetric_dubins_curves():
+    setup = iao.simpleSetup(wall([], start=(-10, -10, 0), goal=(10, 10, 0)), ob.SE2StateSpace())
+    objective = iao.DrivingCostObjective(setup.getSpaceInformation(), turning_radius=4, **DRIVING)
+    for poses, cost in (([(-5, -5, 0), (-1, -5, 0)], 4), ([(-1, -5, 0), (-5, -5, 0)], 4 * 2.5),
+                        ([(-5, -5, 0), (-3, -5, 0), (-1, -5, 0.25)], 4 + 0.5 * 0.7)):
+        assert iao.pathCost(pathThrough(setup, poses), objective).value() == pytest.approx(cost)
+    setup = iao.simpleSetup(wall([], start=(-10, -10, 0), goal=(10, 10, 0)), ob.DubinsStateSpace(4.0, True))
+    objective = iao.DrivingCostObjective(setup.getSpaceInformation(), **DRIVING)
+    assert objective.motionCost(state(setup, (0, 0, 0)), state(setup, (-2, 0, 0))).value() == pytest.approx(2 * 2.5)
+
+
+def test_the_driving_cost_uses_the_clearance_of_a_checker():
+    class Checker(ob.StateValidityChecker):
+        def isValid(self, asked):
+            return True
+
+    class Clear(Checker):
+        def clearance(self, asked):
+            return 0.3 if asked.getX() < 0.0 else 1.0
+
+    setup = iao.simpleSetup(wall([], start=(-10, -10, 0), goal=(10, 10, 0)))
+    si = setup.getSpaceInformation()
+    objective = iao.DrivingCostObjective(si, **DRIVING)
+    path = pathThrough(setup, [(-2, 0, 0), (6, 0, 0)])
+    assert objective.cost(path).value() == pytest.approx(8.0)
+    for checker, cost in ((Checker, 8.0), (Clear, 8.0 + 2.0 * 6.0)):
+        si.setStateValidityChecker(checker(si))
+        assert objective.cost(path).value() == pytest.approx(cost, abs=0.6)
+
+
+@pytest.mark.parametrize('planner', [og.RRTstar, og.BITstar])
+def test_other_planners_minimise_the_driving_cost(planner):
+    costs = []
+    for isDriving in (True, False):
+        setup = iao.simpleSetup(wall([], start=(4, 0, 0), goal=(-4, 0, 0)))
+        si = setup.getSpaceInformation()
+        driving = iao.DrivingCostObjective(si, reverse_penalty=20, gear_change_penalty=0, steering_change_penalty=0)
+        setup.setOptimizationObjective(driving if isDriving else ob.PathLengthOptimizationObjective(si))
+        setup.setPlanner(planner(si))
+        assert solve(setup, 1.0) == Type.EXACT_SOLUTION
+        costs.append(iao.pathCost(setup.getSolutionPath(), driving).value())
+    assert costs[0] < 0.5 * costs[1]  # it is shorter to drive in reverse, and costs more
+
+
+def test_the_search_minimises_driving_costs_and_sums():
+    def found(objective=None, **parameters):
+        setup = iao.simpleSetup(scenario('parallel.yaml'), **parameters)
+        if objective is not None:
+            setup.setOptimizationObjective(objective(setup.getSpaceInformation()))
+        assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+        return setup.getPlanner().pieces(), setup
+
+    def total(*parts):
+        def make(si):
+            result = ob.MultiOptimizationObjective(si)
+            for part, weight in parts:
+                result.addObjective(part(si), weight)
+            return result
+        return make
+
+    def driving(si, **weights):
+        return iao.DrivingCostObjective(si, **{**DRIVING, **weights})
+
+    class Derived(iao.DrivingCostObjective):
+        pass
+
+    length, half = ob.PathLengthOptimizationObjective, {name: value / 2 for name, value in DRIVING.items()}
+    half['preferred_clearance'] = DRIVING['preferred_clearance']
+    assert numpy.array_equal(found(driving)[0], found(**DRIVING)[0])
+    assert numpy.array_equal(found(total((length, 1.0), (driving, 1.0)))[0], found(**half)[0])
+    own = found()[0]
+    for other in (Derived, total((driving, 1.0), (lambda si: driving(si, preferred_clearance=0.2), 1.0)),
+                  total((length, 1.0), (driving, -0.1)), total()):
+        assert numpy.array_equal(found(other)[0], own)
+    # Among the same weights no path costs more than that without the objective.
+    path, setup = found(driving)[1].getSolutionPath(), found()[1]
+    objective = driving(setup.getSpaceInformation())
+    assert objective.cost(path).value() <= objective.cost(setup.getSolutionPath()).value() + 1e-9
+
+
+def test_changed_objectives_and_cleared_planners_plan_again():
+    setup = iao.simpleSetup(scenario('parallel.yaml'))
+    si, planner = setup.getSpaceInformation(), setup.getPlanner()
+    assert solve(setup) == Type.EXACT_SOLUTION
+    found = {'none': planner.pieces()}
+    for name in ('driving', 'length', 'driving', 'length'):
+        if name in found:
+            setup.clear()
+        setup.getProblemDefinition().clearSolutionPaths()
+        setup.setOptimizationObjective(objectiveNamed(name, si))
+        for _ in range(2):
+            planner.setup()
+        assert solve(setup) == Type.EXACT_SOLUTION
+        assert numpy.array_equal(found.setdefault(name, planner.pieces()), planner.pieces())
+    assert len({pieces.tobytes() for pieces in found.values()}) == 3
+
+
+def test_what_an_objective_raises_arrives():
+    class Failing(iao.DrivingCostObjective):
+        fails = True
+
+        def motionCost(self, first, last):
+            if self.fails:
+                raise RuntimeError('no cost')
+            return super().motionCost(first, last)
+
+    for planner in (iao.ImprovedAStar, og.RRTstar):
+        setup = iao.simpleSetup(wall())
+        objective = Failing(setup.getSpaceInformation())
+        setup.setOptimizationObjective(objective)
+        setup.setPlanner(planner(setup.getSpaceInformation()))
+        with pytest.raises(RuntimeError, match='no cost'):
+            setup.solve(5.0)
+        objective.fails = False
+        if planner is og.RRTstar:
+            setup.clear()
+        assert setup.solve(1.0)
+
+
+def test_weights_that_are_wrong_are_refused():
+    setup = iao.simpleSetup(wall())
+    si = setup.getSpaceInformation()
+    for weights, message in (({'reverse_penalty': -1}, 'reverse_penalty'), ({'reverse': 1}, "'reverse' is not a weight"),
+                             ({'heading_bins': 36}, "'heading_bins' is not a weight of the driving cost; these are")):
+        with pytest.raises(ia.Error, match=message):
+            iao.DrivingCostObjective(si, **weights)
+    with pytest.raises(ia.Error, match='not RealVectorStateSpace'):
+        iao.DrivingCostObjective(ob.SpaceInformation(ob.RealVectorStateSpace(2)))
+    bare = iao.DrivingCostObjective(ob.SpaceInformation(setup.getStateSpace()))
+    with pytest.raises(ia.Error, match='the driving cost requires a validity checker'):
+        bare.motionCost(state(setup, (0, 0, 0)), state(setup, (1, 0, 0)))
+
+
+@pytest.mark.parametrize('base', [ob.ReedsSheppStateSpace, ob.DubinsStateSpace])
+def test_a_derived_space_is_what_ompl_uses_of_it(base):
+    """OMPL does not call what a space derived in Python overrides."""
+    class Derived(base):
+        def distance(self, first, second):
+            return 3.0 * super().distance(first, second)
+
+        def interpolate(self, first, second, fraction, between):
+            raise AssertionError('not called by OMPL')
+
+        def satisfiesBounds(self, asked):
+            return False
+
+        def getBounds(self):
+            return ob.RealVectorBounds(2)
+
+    found = []
+    for space in (base(5.0), Derived(5.0)):
+        setup = iao.simpleSetup(wall(), space)
+        setup.setOptimizationObjective(objectiveNamed('driving', setup.getSpaceInformation()))
+        assert solve(setup) == Type.EXACT_SOLUTION and setup.getSolutionPath().check()
+        found.append((setup.getPlanner().pieces(), setup.getPlanner()._space.radius))
+    assert numpy.array_equal(found[0][0], found[1][0]) and found[0][1] == found[1][1] == pytest.approx(5.0)
+
+
+def test_states_out_of_bounds_are_invalid():
+    for start, goal, status, approximate in (((99, 0, 0), (10, -5, 0), Type.INVALID_START, True),
+                                             ((-10, -5, 0), (99, 0, 0), Type.INVALID_GOAL, False),
+                                             ((-10, -5, 0), (99, 0, 0), Type.APPROXIMATE_SOLUTION, True)):
+        setup = iao.simpleSetup(wall(), approximate=approximate)
+        setup.setStartAndGoalStates(state(setup, start), state(setup, goal))
+        for _ in range(2):
+            assert solve(setup) == status
 
 
 def test_replaced_starts_and_goals_begin_a_new_query():
