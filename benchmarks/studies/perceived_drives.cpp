@@ -1,6 +1,7 @@
 // Simulates drives of a car that perceives its world while obstacles appear. Writes tables of docs/results.md.
 
 #include "automatic_parking/AutomaticParking.h"
+#include "automatic_parking/perception/ExtendedObstacles.h"
 #include "automatic_parking/perception/SimulatedSensor.h"
 #include "benchmarks/studies/Surprise.h"
 #include "benchmarks/system/CommandLine.h"
@@ -48,6 +49,61 @@ namespace
         }
     };
 
+    /** Whether a plan leaves the one before by more than half a metre, on the way that it has ahead. */
+    bool changesMind(const Path &before, const Path &plan)
+    {
+        constexpr double ELSEWHERE = 0.5, STEP = 0.2;  // metres
+        if (plan.pieces.empty() || before.pieces.empty())
+            return false;
+        const SampledPath old = before.sample(STEP), next = plan.sample(STEP);
+        return std::any_of(next.begin(), next.end(),
+                           [&old](const PathState &state)
+                           {
+                               return std::none_of(old.begin(), old.end(),
+                                                   [&state](const PathState &other)
+                                                   { return positionDistance(other.pose, state.pose) < ELSEWHERE; });
+                           });
+    }
+
+    std::size_t changesOfMind(const std::vector<TimedPlan> &plans)
+    {
+        std::size_t count = 0;
+        for (std::size_t i = 1; i < plans.size(); ++i)
+            count += changesMind(plans[i - 1].path, plans[i].path) ? 1 : 0;
+        return count;
+    }
+
+    /** The plans of a planner that plans anew at each frame of a drive, from where the car then is. */
+    std::vector<TimedPlan> plansOfEachFrame(const Scenario &scenario, const ParkingResult &drive, double extension)
+    {
+        Scenario seen = scenario;
+        seen.polygons.clear();
+        seen.unknownIsOccupied = false;
+        seen.grid = drive.history.map;
+        ExtendedObstacles obstacles(seen, extension);
+        ParkingWorld open(seen, {}, IndexedObstacles::LOCAL_REACH);
+        Scenario more = seen;
+        more.grid = obstacles.map();
+        ParkingWorld extended(more, {}, IndexedObstacles::LOCAL_REACH);
+        std::vector<TimedPlan> plans;
+        std::size_t at = 0;
+        for (const SeenFrame &frame : drive.history.frames)
+        {
+            open.update(frame.changes);
+            extended.update(obstacles.update(frame.changes));
+            while (at + 1 < drive.trajectory.size() && drive.trajectory[at].t < frame.time)
+                ++at;
+            const TrajectoryPoint &car = drive.trajectory[at];
+            seen.start = {car.x, car.y, car.yaw};
+            ParkingPlan plan = ParkingPlanner().plan(seen, extended);
+            if (!plan.found)
+                plan = ParkingPlanner().plan(seen, open);
+            if (plan.found)
+                plans.push_back({frame.time, plan.path});
+        }
+        return plans;
+    }
+
     /** Sums over the drives of one way to react. */
     struct Row
     {
@@ -56,7 +112,7 @@ namespace
         }
 
         std::string name;
-        std::size_t drives{0}, parked{0}, hits{0}, inevitable{0}, rolling{0}, stops{0}, motions{0};
+        std::size_t drives{0}, parked{0}, hits{0}, inevitable{0}, rolling{0}, stops{0}, motions{0}, changes{0};
         Sample ratio, checks, plans;
 
         void add(const ParkingResult &result, const Scenario &scenario, const Surprise *surprise, bool avoidable,
@@ -72,6 +128,7 @@ namespace
             hits += touch && (other || avoidable) ? 1 : 0;
             inevitable += touch && !other && !avoidable ? 1 : 0;
             rolling += !result.trajectory.empty() && result.trajectory.back().v != 0.0 ? 1 : 0;
+            changes += changesOfMind(result.history.plans);
             stops += result.legs.empty() ? 0 : result.legs.size() - 1;
             for (const Reaction &reaction : result.reactions)
             {
@@ -93,9 +150,9 @@ namespace
         {
             return "| " + name + " | " + std::to_string(drives) + " | " + std::to_string(parked) + " | " +
                    std::to_string(hits) + " | " + std::to_string(inevitable) + " | " + std::to_string(stops) + " | " +
-                   std::to_string(motions) + " | " + formatNumber(ratio.rank(0.5), 3) + " | " +
-                   formatNumber(ratio.rank(0.9), 3) + " | " + checks.inMilliseconds() + " | " + plans.inMilliseconds() +
-                   " |\n";
+                   std::to_string(motions) + " | " + std::to_string(changes) + " | " +
+                   formatNumber(ratio.rank(0.5), 3) + " | " + formatNumber(ratio.rank(0.9), 3) + " | " +
+                   checks.inMilliseconds() + " | " + plans.inMilliseconds() + " |\n";
         }
     };
 
@@ -116,34 +173,30 @@ namespace
         ParkingParameters parameters;
         SensorParameters sensor;
         PerceptionParameters map;
-        bool verbose{false};
+        bool verbose{false}, anew{false};
         Row reacting{"reacts in motion"}, stopping{"stops to plan"};
-        std::size_t withoutDrive{0};
+        std::size_t withoutDrive{0}, frames{0}, changesAnew{0};
 
         void drive(const Scenario &scenario, std::uint64_t seed)
         {
             Random random(seed * 2654435761U + 1);
             parameters.drive.disturbances.seed = random.bits();
             const ParkingResult calm = perceived(scenario, parameters, sensor, map, nullptr);
-            if (!calm.parked() || calm.trajectory.back().t == 0.0)
-            {
-                ++withoutDrive;
-                if (verbose)
-                    std::cerr << scenario.name << ", drive " << seed << ": " << calm.message << '\n';
-                return;
-            }
-            const auto surprise = random.chance(0.7) ? surpriseFor(scenario, calm.trajectory, random) : std::nullopt;
+            const bool meets = calm.parked() && random.chance(0.7);
+            const auto surprise = meets ? surpriseFor(scenario, calm.trajectory, random) : std::nullopt;
             const Surprise *appears = surprise ? &*surprise : nullptr;
             Scenario informed = scenario;
             if (surprise)
                 informed.polygons.push_back(surprise->obstacle);
             const ParkingResult known = AutomaticParking(parameters).park(informed);
-            if (!known.parked())
+            const double knownTime = known.parked() ? known.trajectory.back().t : 0.0;
+            if (knownTime == 0.0)
             {
                 ++withoutDrive;
+                if (verbose)
+                    std::cerr << scenario.name << ", drive " << seed << ": " << known.message << '\n';
                 return;
             }
-            const double knownTime = known.trajectory.back().t;
             const double reaction = parameters.drive.tracking.mpc.step + 1.0 / sensor.rate;
             const bool avoidable =
                 surprise && isFree(brakingPath(calm.trajectory, scenario.vehicle, parameters.drive.disturbances,
@@ -156,6 +209,12 @@ namespace
             const std::size_t hits = reacting.hits;
             reacting.add(result, scenario, appears, avoidable, knownTime);
             stopping.add(stops, scenario, appears, avoidable, knownTime);
+            if (anew)
+            {
+                const std::vector<TimedPlan> plans = plansOfEachFrame(scenario, result, map.obstacleExtension);
+                frames += plans.size();
+                changesAnew += changesOfMind(plans);
+            }
             if (!verbose && reacting.hits == hits)
                 return;
             std::cerr << scenario.name << ", drive " << seed << ": " << result.message
@@ -178,6 +237,7 @@ namespace
         add("rate", oneValue("HZ"), "frames per second (default 20)");
         add("cell", oneValue("M"), "side of the map's cells in metres (default 0.1)");
         add("closed", "treat ground that has not been seen as an obstacle when planning");
+        add("anew", "plan anew at each frame, too, and count how often such plans change");
         add("verbose", "print the events of each drive");
         add("help", "print this text");
         po::options_description all;
@@ -208,15 +268,19 @@ namespace
         study.sensor.rate = line.positive("rate").value_or(study.sensor.rate);
         study.map.cellSize = line.positive("cell").value_or(study.map.cellSize);
         study.map.unseenIsOccupied = line.given("closed");
+        study.anew = line.given("anew");
         study.verbose = line.given("verbose");
         const std::size_t drives = line.whole("drives", 1, 1000000).value_or(100);
         const std::size_t first = line.whole("first", 0, 1000000000).value_or(0);
         for (std::size_t i = first; i < first + drives; ++i)
             study.drive(scenarios[i % scenarios.size()], i);
-        std::cout << "| car | drives | parked | hits | inevitable hits | stops | new motions | time, median | 90 % | "
-                     "check, ms | with a new motion, ms |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+        std::cout << "| car | drives | parked | hits | inevitable hits | stops | new motions | changes of mind | time, "
+                     "median | 90 % | "
+                     "check, ms | with a new motion, ms |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
                   << study.reacting.text() << study.stopping.text()
-                  << "\nDrives without a plan, even in the known world: " << study.withoutDrive << '\n';
+                  << "\nWithout a drive, even in the known world: " << study.withoutDrive << '\n';
+        if (study.anew)
+            std::cout << "Plans at each frame: " << study.frames << ", changes of mind: " << study.changesAnew << '\n';
         return study.reacting.hits == 0 && study.reacting.rolling == 0 ? 0 : 1;
     }
 }  // namespace
