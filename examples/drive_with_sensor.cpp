@@ -2,6 +2,7 @@
 // of it. It continues in motion on another trajectory. A page shows what it sees and plans on the way.
 #include "automatic_parking/AutomaticParking.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
+#include "automatic_parking/drawing/DriveFigure.h"
 #include "automatic_parking/perception/SimulatedSensor.h"
 
 #include <cstdio>
@@ -32,6 +33,10 @@ try
         std::cout << event << '\n';
     std::printf("%.1f m in %.1f s, %zu changes of what is seen\n", result.evaluation.drivenLength,
                 result.evaluation.travelTime, result.reactions.size());
+    truth.polygons.push_back(box.outline);
+    parking::driveFigure(truth, result.history.plans.front().path, result.trajectory, truth.name,
+                         "the first plan, and the drive by what the car sees; the box falls at 4 s")
+        .write("drive_with_sensor.svg");
     parking::writeDriveAnimation("drive_with_sensor.html", truth, {}, result.trajectory, truth.name,
                                  {"what the car sees and plans on the way", {}, result.history});
     return result.parked() ? 0 : 1;
