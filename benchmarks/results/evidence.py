@@ -38,6 +38,7 @@ class Evidence:
                           for name in self.steps if name.startswith('parkbench-') and 'scenes' not in name}
         self.checks = {each['name']: each for each in self._json('checks', 'checks.json').get('benchmarks', [])}
         self.troubles = self._table('troubles', 'troubles.md')
+        self.perceived = self._table('perceived', 'perceived.md')
         self.slots = self._text('slots', 'car-slot-table.md')
 
     def _databases(self, what):
@@ -67,7 +68,8 @@ class Evidence:
     def _table(self, step, name):
         """Rows of a table in Markdown, as lists of cells; the first is that of the headings."""
         lines = self._text(step, name).splitlines()
-        return [[cell.strip() for cell in line.strip('|').split('|')] for line in lines if not line.startswith('|--')]
+        return [[cell.strip() for cell in line.strip('|').split('|')] for line in lines
+                if line.startswith('|') and not line.startswith('|--')]
 
 
 class Comparison:

@@ -20,6 +20,7 @@ SCENARIOS = os.path.join(ROOT, 'benchmarks', 'scenarios')
 PROGRAMS = 'build/release/benchmarks/'  # as a reader calls them
 PLANNED = (0, 3, 4)  # statuses of parking_plan with a result, even without a path
 PARKBENCH_CARS = ('toyota_yaris', 'vw_golf8', 'mercedes_s_w223')  # small, medium, large
+PERCEIVED = ('parked_rows', 'streets', 'multi_storey', 'large_lot', 'angled_lot', 'careless_lot')  # kinds of queries
 DRIVEN = ('angled45', 'parallel', 'perpendicular', 'dead_end_aisle')  # with trouble
 
 
@@ -55,11 +56,12 @@ class Amount:
     variants: int  # runs of each variant of the ablation
     repeats: int   # of a plan
     drives: int
+    perceived: int  # drives by a sensor
     checks: list   # options of the micro-benchmarks
 
 
-FULL = Amount(0.5, {'bundled': 2, 'random': 1, 'tpcap': 1}, 4, 2, 3, 140, ['--benchmark_min_time=0.1'])
-QUICK = Amount(0.2, {'bundled': 1, 'random': 1, 'tpcap': 1}, 1, 1, 3, 28,
+FULL = Amount(0.5, {'bundled': 2, 'random': 1, 'tpcap': 1}, 4, 2, 3, 140, 48, ['--benchmark_min_time=0.1'])
+QUICK = Amount(0.2, {'bundled': 1, 'random': 1, 'tpcap': 1}, 1, 1, 3, 28, 6,
                ['--benchmark_min_time=0.02', '--benchmark_filter=^(stateCheck|motionCheck|sweptArc|distanceField|checkerOf)'])
 
 
@@ -116,6 +118,12 @@ def steps_of(raw, programs, amount, data):
     driven = [os.path.join(SCENARIOS, f'{name}.yaml') for name in DRIVEN]
     yield Step('troubles', 'drives that meet trouble', f'{PROGRAMS}troubled_drives {named} {" ".join(options)}',
                [Job([program('troubled_drives'), *driven, *options], at('troubles', 'troubles.md'), True, (0, 1))],
+               inputs=driven)
+    options = ['--drives', str(amount.perceived)]
+    driven = [file for file in scenario_files(queries)
+              if os.path.basename(file).startswith(PERCEIVED)]  # places where cars park
+    yield Step('perceived', 'drives by a sensor', f'{PROGRAMS}perceived_drives queries/{{{",".join(PERCEIVED)}}}* {" ".join(options)}',
+               [Job([program('perceived_drives'), *driven, *options], at('perceived', 'perceived.md'), True, (0, 1))],
                inputs=driven)
     yield Step('checks', 'footprint checks', f'{PROGRAMS}validity_benchmark {shlex.join(amount.checks)}',
                [Job([program('validity_benchmark'), *amount.checks, '--benchmark_format=json'],

@@ -335,6 +335,23 @@ def troubles(evidence, figures):
                      [[row[place] for place in (*wanted, hit, other)] for row in rows])]
 
 
+def perceived(evidence, figures):
+    if len(evidence.perceived) < 2:
+        return []
+    headings, *rows = evidence.perceived
+    wanted = [headings.index(name) for name in ('car', 'drives', 'parked', 'hits', 'inevitable hits', 'stops', 'new motions',
+                                                'changes of mind', 'time, median', '90 %', 'check, ms', 'with a new motion, ms')]
+    for name in ('drives', 'parked', 'hits', 'stops'):
+        value = int(rows[0][headings.index(name)])
+        figures.add(f'perceived.{name}', value, str(value), 'perceived')
+    return ['## Drives by a sensor',
+            'The car knows what a sensor of 20 m has seen. In most drives a box appears in front of it.',
+            f'`{evidence.steps["perceived"]["command"]}`',
+            markdown(['car', *(headings[place] for place in wanted[1:])], [[row[place] for place in wanted] for row in rows]),
+            '*Hits*: of boxes that a full brake would have avoided. *Time*: relative to a drive that knows the world. *Changes of '
+            'mind*: plans that leave the one before by more than 0.5 m. Times of computing are median / 99 % / largest.']
+
+
 def termination(evidence, figures):
     if evidence.termination is None:
         return []
@@ -466,7 +483,7 @@ def pages_of(evidence):
     page = introduction(evidence)
     parts = compared(evidence, figures)
     page += (COMPARED + parts + ['Each problem is in [problems](results/problems.md).']) if parts else []
-    for section in (repeated_calls, anytime, ablation, checks, trajectories, troubles, parkbench, termination):
+    for section in (repeated_calls, anytime, ablation, checks, trajectories, troubles, perceived, parkbench, termination):
         page += section(evidence, figures)
     if evidence.slots:
         page.append('Which car parks in which slot, in how many stretches: [cars in slots](results/car-slot-table.md).')

@@ -144,13 +144,18 @@ class Pages(made_results.FolderTest):
         self.assertEqual(self.rows(made['docs/results/trajectories.md'])['a'][1:3], ['10.0', '25.0'])
 
     def test_checks_troubles_and_termination(self):
-        for name in ('checks', 'troubles', 'termination'):
+        for name in ('checks', 'troubles', 'perceived', 'termination'):
             self.step(name)
         each = [{'name': f'stateCheck/grid/mixed/{tier}', 'cpu_time': time, 'time_unit': unit}
                 for tier, time, unit in (('plain_fcl', 0.2, 'us'), ('two_tier', 40.0, 'ns'))]
         self.write('checks/checks.json', {'benchmarks': each})
         self.write('troubles/troubles.md', '| trouble | drives | parked | stopped, touching nothing | could be avoided '
                    '| and was hit | anything else was hit |\n|---|--:|--:|--:|--:|--:|--:|\n| none | 9 | 8 | 1 | 3 | 0 | 0 |\n')
+        columns = ('car', 'drives', 'parked', 'hits', 'inevitable hits', 'stops', 'new motions', 'changes of mind',
+                   'time, median', '90 %', 'check, ms', 'with a new motion, ms')
+        cells = ('reacts in motion', '9', '8', '0', '1', '2', '3', '4', '1.1', '1.3', '1 / 2 / 3', '4 / 5 / 6')
+        self.write('perceived/perceived.md', f'| {" | ".join(columns)} |\n|---|{12 * "--:|"}\n| {" | ".join(cells)} |\n\n'
+                   'Without a drive, even in the known world: 0\n')
         made_results.write(self.path('termination'), [record('a', 'RRTstar', k, 'none', time=time)
                                                       for k, time in enumerate((2.004, 2.002, 2.0, 0.1))])
         made, figures, _ = self.made()
@@ -159,6 +164,8 @@ class Pages(made_results.FolderTest):
         self.assertEqual(rows['none'], ['9', '8', '1', '3', '0', '0'])
         self.assertEqual(rows['RRTstar'], ['3', '2.00 ms', '4.00 ms'])
         self.assertEqual(figures['troubles.parked']['value'], 8)
+        self.assertEqual(rows['reacts in motion'], list(cells[1:]))
+        self.assertEqual(figures['perceived.stops']['value'], 2)
 
     def test_parkbench(self):
         for car in ('a', 'b'):
