@@ -265,6 +265,8 @@ namespace parking
             options.trajectory.initialSteering = std::clamp(steering, -car.maxSteeringAngle, car.maxSteeringAngle);
             options.trajectory.initialSpeed = speed;
             options.alternatives = options.alternatives && !isReacting_;
+            if (isReacting_)
+                options.trajectory.maxRounds = std::min<std::size_t>(options.trajectory.maxRounds, 2);
             options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,
