@@ -3,11 +3,12 @@
 const View = (() => {
   const view = { x: 0, y: 0, scale: 30 };  // the point in the middle, pixels per metre
 
-  function fit(box, width, height, margin = 40) {
+  // Above and below there is text over the scene.
+  function fit(box, width, height, margin = 24, above = 52, below = 44) {
     const w = Math.max(1, box[2] - box[0]), h = Math.max(1, box[3] - box[1]);
+    view.scale = Math.max(1, Math.min((width - 2 * margin) / w, (height - above - below) / h, 120));
     view.x = (box[0] + box[2]) / 2;
-    view.y = (box[1] + box[3]) / 2;
-    view.scale = Math.max(1, Math.min((width - 2 * margin) / w, (height - 2 * margin) / h, 120));
+    view.y = (box[1] + box[3]) / 2 + (above - below) / 2 / view.scale;
   }
   const toScreen = ([x, y], width, height) => [width / 2 + (x - view.x) * view.scale, height / 2 - (y - view.y) * view.scale];
   const toWorld = ([x, y], width, height) => [view.x + (x - width / 2) / view.scale, view.y - (y - height / 2) / view.scale];
