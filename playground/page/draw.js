@@ -34,22 +34,20 @@ const Draw = (() => {
     return step;
   }
 
-  // The distance to the nearest obstacle as a picture of one point per pixel: {columns, rows, spacing, x, y}.
+  // The distance to the nearest obstacle as a picture of one point per pixel. field: columns, rows, spacing, x, y, metres row by row.
   const MOST_DISTANCE = 4;  // metres; farther points look alike
   const fieldPictures = new WeakMap();
-  const fieldColour = metres => { const share = Math.min(1, metres / MOST_DISTANCE); return [Math.round(10 + 200 * share), 85, 52]; };
   function fieldPicture(field) {
     if (!fieldPictures.has(field)) {
       const [columns, rows] = field, canvas = document.createElement('canvas');
       canvas.width = columns; canvas.height = rows;
       const context = canvas.getContext('2d'), image = context.createImageData(columns, rows);
+      // The colours of hsl(hue 82% 48%), as in the legend.
+      const tone = (k, hue) => { const n = (k + hue / 30) % 12; return Math.round(255 * (0.48 - 0.3936 * Math.max(-1, Math.min(n - 3, 9 - n, 1)))); };
       for (let row = 0; row < rows; ++row)
         for (let column = 0; column < columns; ++column) {
-          const metres = field[5 + row * columns + column], [hue, saturation, light] = fieldColour(metres), at = 4 * ((rows - 1 - row) * columns + column);
-          const tone = k => { const n = (k + hue / 30) % 12, a = saturation / 100 * Math.min(light / 100, 1 - light / 100); return Math.round(255 * (light / 100 - a * Math.max(-1, Math.min(n - 3, 9 - n, 1)))); };
-          // Every half metre a line.
-          const line = metres > 0 && metres < MOST_DISTANCE && (metres % 0.5) < 0.7 * field[2];
-          image.data.set([tone(0), tone(8), tone(4), metres > 0 ? (line ? 150 : 85) : 0], at);
+          const hue = 10 + 200 * Math.min(1, field[5 + row * columns + column] / MOST_DISTANCE);
+          image.data.set([tone(0, hue), tone(8, hue), tone(4, hue), 100], 4 * ((rows - 1 - row) * columns + column));
         }
       context.putImageData(image, 0, 0);
       fieldPictures.set(field, canvas);
@@ -58,7 +56,7 @@ const Draw = (() => {
   }
   function distances(painter, field) {
     const [, rows, spacing, x, y] = field;
-    painter.image(fieldPicture(field), [x - spacing / 2, y - spacing / 2, 0], spacing, rows);
+    painter.image(fieldPicture(field), [x - spacing / 2, y - spacing / 2, 0], spacing, rows, true);
   }
 
   // Bodies: outlines of poses that must not touch an obstacle but do.
@@ -190,5 +188,5 @@ const Draw = (() => {
     }
   }
 
-  return { refresh, palette, rows, metres, world, car, handles, handleOf, tree, branch, path, footprints, clearance, distances, fieldColour, MOST_DISTANCE };
+  return { refresh, palette, rows, metres, world, car, handles, handleOf, tree, branch, path, footprints, clearance, distances, MOST_DISTANCE };
 })();

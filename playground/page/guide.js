@@ -8,7 +8,7 @@ const Guide = (() => {
     { text: 'Drag a grey obstacle into the path. The planner finds another.', ends: ['moved polygon', 'placed', 'corner'] },
     { text: 'Press Search to see how the trees find the path.', ends: ['search'] }];
   const TOOLS = {
-    car: 'Click where a parked car stands. By keys: arrows move it, Q and E turn it, Enter places it.',
+    car: matchMedia('(pointer: coarse)').matches ? 'Tap where a parked car stands.' : 'Click where a parked car stands. By keys: arrows move it, Q and E turn it, Enter places it.',
     polygon: 'Click corner by corner. Enter or a click on the first corner closes the outline.',
     slot: 'Drag from one corner of the slot to the opposite one.' };
   const done = new Set();

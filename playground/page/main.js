@@ -157,7 +157,7 @@
     const scene = Scene.current, limit = limitOf(whole);
     const parameters = [{ ...Panels.parameters }];
     if (compareWith) parameters.push(Panels.parametersOf(compareWith));
-    return { kind: 'plan', start: scene.start, field: show.field ? 240 : 0, numbers: Planner.numbersOf(scene), cells: scene.map ? scene.map.cells : null, parameters, seconds: limit, hasty: !whole, trace: show.tree || show.heuristic || mode === 'search' ? 20000 : 0, trajectory: whole ? 2 : 0 };
+    return { kind: 'plan', start: scene.start, field: show.field ? 320 : 0, numbers: Planner.numbersOf(scene), cells: scene.map ? scene.map.cells : null, parameters, seconds: limit, hasty: !whole, trace: show.tree || show.heuristic || mode === 'search' ? 20000 : 0, trajectory: whole ? 2 : 0 };
   }
   async function replan(whole) {
     const mine = ++planning, scene = Scene.current;
@@ -206,7 +206,8 @@
     const near = [box[0] - 6, box[1] - 6, box[2] + 6, box[3] + 6];
     for (const [x, y] of scene.polygons.flat()) include([Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))]);
     if (scene.map) { const [x, y] = scene.map.origin, { columns, rows, resolution } = scene.map; for (const [u, v] of [[x, y], [x + columns * resolution, y + rows * resolution]]) include([Math.min(near[2] + 6, Math.max(near[0] - 6, u)), Math.min(near[3] + 6, Math.max(near[1] - 6, v))]); }
-    View.fit(box, canvas.clientWidth / (compareWith ? 2 : 1), canvas.clientHeight);
+    const covered = id => byId(id).offsetHeight + 16;
+    View.fit(box, canvas.clientWidth / (compareWith ? 2 : 1), canvas.clientHeight, 24, covered('verdict'), covered('below'));
     redraw();
   }
 
@@ -344,6 +345,7 @@
     mode = name; playing = false; time = null;
     for (const each of ['drive', 'search']) byId('tab-' + each).setAttribute('aria-selected', String(each === name));
     byId('why').hidden = name !== 'search';
+    document.body.classList.toggle('searching', name === 'search');
     hovered = null; intro = false;
     legend();
     if (name === 'search') Guide.happened('search');

@@ -117,11 +117,13 @@ const Panels = (() => {
   byId('filter').addEventListener('input', filter);
   byId('defaults').addEventListener('click', () => { chosen = {}; showParameters(); onParameters(); });
 
+  // A name that may go on in the next line behind its underscores.
+  const broken = name => name.split('_').flatMap((part, index) => index ? ['_', element('wbr'), part] : [part]);
   function ablation(rows) {
-    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, name), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', { class: p[16] ? 'bad' : '' }, canDrive(p)), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], p[10] < 10 ? 1 : 0))));
+    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, ...broken(name)), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', { class: p[16] ? 'bad' : '', title: canDrive(p) }, canDrive(p).slice(0, 3).replace(',', '')), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], p[10] < 10 ? 1 : 0))));
     const wrong = rows.filter(([, p]) => Number.isFinite(p[1]) && p[16]).length;
     const note = `No car can drive ${wrong} of these ${rows.length} paths. The paper's sets plan on a grid for a disc that turns on the spot: their lengths and changes of direction compare with each other only.`;
-    byId('table-wrap').replaceChildren(...(wrong ? [element('p', {}, note)] : []), element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'drivable', 'expanded', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
+    byId('table-wrap').replaceChildren(...(wrong ? [element('p', {}, note)] : []), element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'drivable', 'nodes', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
   }
 
   function begin(about, changed) {

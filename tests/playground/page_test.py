@@ -7,6 +7,7 @@ PARKING_PLAN in the environment is the program whose answers the page's must equ
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -136,7 +137,7 @@ class PageTest(unittest.TestCase):
         return self.ask('playground.quick.milliseconds') if begin is None or end is None else 1e3 * (end - begin)
 
     def test_plans_take_less_than_50_ms_while_dragging(self):
-        slowest = (0.0, '')
+        slowest, all_times = (0.0, ''), []
         for name in SOLVABLE + ['unreachable']:
             with self.subTest(name):
                 self.settle(f'playground.openBundled({json.dumps(name)})')
@@ -156,12 +157,15 @@ class PageTest(unittest.TestCase):
                     self.assertLess(least, limit)
                     if name != 'unreachable':
                         slowest = max(slowest, (least, name))
+                        if name != 'multi_storey':
+                            all_times.append(least)
                     else:
                         self.assertIn(self.ask('document.getElementById("status").textContent'),
                                       ('Looking', 'Only near the goal'))
                 self.page.mouse('mouseReleased', *place)
                 self.page.until('!document.body.dataset.busy')
-        print(f'slowest answer while dragging: {slowest[0]:.1f} ms ({slowest[1]})')
+        print(f'answers while dragging: median {statistics.median(all_times):.1f} ms without multi_storey, '
+              f'slowest {slowest[0]:.1f} ms ({slowest[1]})')
 
     def test_the_plan_follows_the_pointer(self):
         start = self.ask('playground.Scene.current.start')
@@ -248,7 +252,7 @@ class PageTest(unittest.TestCase):
         for name in ('default', 'hybrid_astar', 'textbook_hybrid_astar'):
             self.assertEqual(rows[name][2], 'yes', name)
         for name in ('basic_astar', 'paper_improved_astar'):
-            self.assertRegex(rows[name][2], '^no, ', 'a car does not turn on the spot')
+            self.assertEqual(rows[name][2], 'no', 'a car does not turn on the spot')
             self.assertLess(float(rows[name][0]), float(rows['default'][0]), 'shorter than any car can drive')
         self.assertRegex(self.ask('document.querySelector("#table-wrap p").textContent'), r'^No car can drive \d of these')
         self.assertNotIn('improved_astar', rows)
