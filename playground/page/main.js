@@ -206,6 +206,8 @@
     const near = [box[0] - 6, box[1] - 6, box[2] + 6, box[3] + 6];
     for (const [x, y] of scene.polygons.flat()) include([Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))]);
     if (scene.map) { const [x, y] = scene.map.origin, { columns, rows, resolution } = scene.map; for (const [u, v] of [[x, y], [x + columns * resolution, y + rows * resolution]]) include([Math.min(near[2] + 6, Math.max(near[0] - 6, u)), Math.min(near[3] + 6, Math.max(near[1] - 6, v))]); }
+    Guide.hint();
+    byId('sides').hidden = !compareWith;
     const covered = id => byId(id).offsetHeight + 16;
     View.fit(box, canvas.clientWidth / (compareWith ? 2 : 1), canvas.clientHeight, 24, covered('verdict'), covered('below'));
     redraw();
