@@ -29,7 +29,7 @@ const Charts = (() => {
     const c = canvas.getContext('2d');
     c.scale(ratio, ratio);
     c.clearRect(0, 0, width, height);
-    const l = 40, r = 10, t = 22, b = 18, x0 = xs[0] || 0, x1 = xs[xs.length - 1] || 1;
+    const l = 46, r = 10, t = 22, b = 18, x0 = xs[0] || 0, x1 = xs[xs.length - 1] || 1;
     const low = options.low === undefined ? Math.min(0, ...ys) : options.low, high = options.high === undefined ? Math.max(1e-9, ...ys) : options.high;
     axes.set(canvas, [x0, x1, l, r]);
     const at = x => l + (width - l - r) * (x - x0) / (x1 - x0 || 1), up = y => t + (height - t - b) * (1 - (Math.min(high, Math.max(low, y)) - low) / (high - low || 1));

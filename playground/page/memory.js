@@ -18,9 +18,12 @@ const Memory = (() => {
   }
   function forget() { try { sessionStorage.removeItem(KEY); } catch (error) { /* no storage */ } }
 
-  // What was stored while the page had its present address, or null. Throws an Error if it is damaged.
+  // What was stored while the page had its present address, or null. Throws an Error if it is damaged. A link that is
+  // followed, and not reloaded, has its own scene.
   function recall() {
+    const [visit] = performance.getEntriesByType('navigation');
     let text = null;
+    if (visit && visit.type === 'navigate' && /^#[zj]/.test(location.hash)) return null;
     try { text = sessionStorage.getItem(KEY); } catch (error) { /* no storage */ }
     if (text === null) return null;
     const found = JSON.parse(text);

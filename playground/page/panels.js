@@ -41,7 +41,7 @@ const Panels = (() => {
   function figures(plan, other, duration) {
     const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['minimum clearance', clearance(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions attempted', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['a car can drive it', canDrive(p)], ['turning radius', fixed(p[15], 2, ' m')]];
     const mine = rows(plan.summary, duration), theirs = other ? rows(other.summary, NaN) : null;
-    const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right'))] : [];
+    const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right')), element('tr', { class: 'words' }, element('td', {}, 'result'), ...[plan, other].map(each => element('td', {}, OUTCOMES[each.summary[0]])))] : [];
     byId('figures').tBodies[0].replaceChildren(...head, ...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), element('td', {}, value), ...(theirs ? [element('td', {}, theirs[i][1])] : []))));
   }
 
