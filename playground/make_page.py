@@ -8,7 +8,7 @@ import json
 import os
 import sys
 
-SCRIPTS = ['formats.js', 'scene.js', 'view.js', 'draw.js', 'charts.js', 'planner.js', 'tools.js', 'panels.js', 'main.js']
+SCRIPTS = ['formats.js', 'scene.js', 'memory.js', 'view.js', 'draw.js', 'charts.js', 'planner.js', 'tools.js', 'panels.js', 'guide.js', 'main.js']
 SCENES = ['perpendicular', 'parallel', 'angled45', 'narrow_parallel', 'tight_parallel', 'narrow_perpendicular',
           'dead_end_aisle', 'multi_storey', 'underground_garage', 'perceived_street', 'unreachable']
 

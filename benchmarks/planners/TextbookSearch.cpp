@@ -98,7 +98,7 @@ namespace parking
     {
         if (parameters_.obstacleHeuristic && problem_.footprint != nullptr)
             ways_ = std::make_unique<const DiscWays>(problem_, parameters_.xyResolution);
-        add({problem_.start, 0.0, NOBODY, 0.0, 0, false});
+        add({problem_.start, 0.0, 0.0, NOBODY, 0.0, 0, false});
     }
 
     TextbookSearch::~TextbookSearch() = default;
@@ -143,10 +143,10 @@ namespace parking
         return parameters_.heuristicWeight * metres;
     }
 
-    void TextbookSearch::add(const Node &node)
+    void TextbookSearch::add(Node node)
     {
-        const double ahead = heuristic(node.pose);
-        if (!std::isfinite(ahead))
+        node.ahead = heuristic(node.pose);
+        if (!std::isfinite(node.ahead))
             return;
         const auto [known, isNew] = cells_.emplace(keyOf(node.pose), static_cast<std::uint32_t>(nodes_.size()));
         if (!isNew)
@@ -156,7 +156,7 @@ namespace parking
             nodes_[known->second].closed = true;  // replaced
             known->second = static_cast<std::uint32_t>(nodes_.size());
         }
-        open_.emplace(node.cost + ahead, ahead, static_cast<std::uint32_t>(nodes_.size()));
+        open_.emplace(node.cost + node.ahead, node.ahead, static_cast<std::uint32_t>(nodes_.size()));
         nodes_.push_back(node);
     }
 
@@ -172,6 +172,7 @@ namespace parking
                 const Pose pose = advance(node.pose, PathPiece(curvature, direction * p.motionLength));
                 Node next{{pose.x, pose.y, wrapAngle(pose.yaw)},
                           node.cost + p.motionLength,
+                          0.0,
                           index,
                           curvature,
                           direction,

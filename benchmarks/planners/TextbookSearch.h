@@ -59,6 +59,7 @@ namespace parking
         {
             Pose pose;             ///< at the end of its motion
             double cost;           ///< of the path from the start
+            double ahead;          ///< the heuristic: estimate of the cost to the goal
             std::uint32_t parent;  ///< index of the node before it; NOBODY for the start
             double curvature;      ///< 1/m, of the motion from its parent
             int direction;         ///< 1 forwards, -1 in reverse, 0 for the start
@@ -94,16 +95,14 @@ namespace parking
             return growth_;
         }
 
-        /** \brief Lower bound of the cost from a pose to the goal by which the open list is sorted. */
-        double heuristic(const Pose &pose) const;
-
     private:
         class DiscWays;
         /** Ordered by f, then h, then age. */
         using OpenNode = std::tuple<double, double, std::uint32_t>;
 
         std::uint64_t keyOf(const Pose &pose) const;
-        void add(const Node &node);
+        double heuristic(const Pose &pose) const;
+        void add(Node node);
         void expand(std::uint32_t index);
         std::vector<Pose> pathTo(std::uint32_t index) const;
 

@@ -4,7 +4,7 @@ const Draw = (() => {
   const colour = name => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
   let palette = {};
   function refresh() {
-    for (const name of ['ground', 'grid', 'obstacle', 'obstacle-edge', 'unknown', 'forward', 'reverse', 'goal', 'slot', 'car', 'car-edge', 'glass', 'ink', 'soft', 'tree-start', 'tree-goal', 'drive', 'accent', 'bad']) palette[name] = colour(name);
+    for (const name of ['ground', 'grid', 'obstacle', 'obstacle-edge', 'unknown', 'forward', 'reverse', 'goal', 'slot', 'car', 'car-edge', 'glass', 'ink', 'soft', 'tree-start', 'tree-goal', 'drive', 'accent', 'bad', 'bad-fill']) palette[name] = colour(name);
     mapPictures.clear();
   }
   const mapPictures = new Map();
@@ -34,11 +34,38 @@ const Draw = (() => {
     return step;
   }
 
-  function world(painter, scene, bounds, selected) {
+  // The distance to the nearest obstacle as a picture of one point per pixel. field: columns, rows, spacing, x, y, metres row by row.
+  const MOST_DISTANCE = 4;  // metres; farther points look alike
+  const fieldPictures = new WeakMap();
+  function fieldPicture(field) {
+    if (!fieldPictures.has(field)) {
+      const [columns, rows] = field, canvas = document.createElement('canvas');
+      canvas.width = columns; canvas.height = rows;
+      const context = canvas.getContext('2d'), image = context.createImageData(columns, rows);
+      // The colours of hsl(hue 82% 48%), as in the legend.
+      const tone = (k, hue) => { const n = (k + hue / 30) % 12; return Math.round(255 * (0.48 - 0.3936 * Math.max(-1, Math.min(n - 3, 9 - n, 1)))); };
+      for (let row = 0; row < rows; ++row)
+        for (let column = 0; column < columns; ++column) {
+          const hue = 10 + 200 * Math.min(1, field[5 + row * columns + column] / MOST_DISTANCE);
+          image.data.set([tone(0, hue), tone(8, hue), tone(4, hue), 100], 4 * ((rows - 1 - row) * columns + column));
+        }
+      context.putImageData(image, 0, 0);
+      fieldPictures.set(field, canvas);
+    }
+    return fieldPictures.get(field);
+  }
+  function distances(painter, field) {
+    const [, rows, spacing, x, y] = field;
+    painter.image(fieldPicture(field), [x - spacing / 2, y - spacing / 2, 0], spacing, rows, true);
+  }
+
+  // Bodies: outlines of poses that must not touch an obstacle but do.
+  function world(painter, scene, bounds, selected, bodies = []) {
     if (scene.map) painter.image(mapPicture(scene.map), scene.map.origin, scene.map.resolution, scene.map.rows);
     scene.polygons.forEach((polygon, index) => {
       const wrong = polygon.length > 2 && Scene.crosses(polygon), chosen = selected && selected.kind === 'polygon' && selected.index === index;
-      painter.shape(polygon, { fill: wrong ? palette.bad : palette.obstacle, stroke: chosen ? palette.accent : palette['obstacle-edge'], width: chosen ? 2.5 : 1.2 });
+      const hit = bodies.some(body => Scene.overlaps(body, polygon));
+      painter.shape(polygon, { fill: wrong ? palette.bad : hit ? palette['bad-fill'] : palette.obstacle, stroke: chosen ? palette.accent : hit ? palette.bad : palette['obstacle-edge'], width: chosen ? 2.5 : hit ? 2 : 1.2 });
     });
     if (bounds && bounds.length === 4 && !scene.map) {
       const [a, b, c, d] = bounds;
@@ -118,6 +145,17 @@ const Draw = (() => {
     else for (const node of nodes) if (!node[8]) painter.disc([node[0], node[1]], 1.7, { fill: stroke, opacity: 0.9 });
   }
 
+  // The way from a tree's root to one of its nodes.
+  function branch(painter, numbers, index) {
+    const nodes = rows(numbers, 9), line = [];
+    for (let at = index; nodes[at]; at = nodes[at][3]) {
+      line.push([nodes[at][0], nodes[at][1]]);
+      if (nodes[at][3] === at) break;
+    }
+    painter.shape(line, { stroke: palette.ink, width: 2, opacity: 0.8 }, false);
+    painter.disc(line[0], 6, { stroke: palette.ink, width: 2.2 });
+  }
+
   function path(painter, numbers, options = {}) {
     const states = rows(numbers, 7);
     let begin = 0;
@@ -150,5 +188,5 @@ const Draw = (() => {
     }
   }
 
-  return { refresh, palette, rows, metres, world, car, handles, handleOf, tree, path, footprints, clearance };
+  return { refresh, palette, rows, metres, world, car, handles, handleOf, tree, branch, path, footprints, clearance, distances, MOST_DISTANCE };
 })();

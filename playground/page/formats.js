@@ -177,7 +177,7 @@ const Formats = (() => {
     const picture = isPgm(bytes) ? readPgm(image, bytes) : await readPng(image, bytes);
     for (const key of ['occupied_thresh', 'free_thresh']) if (!isNumber(yaml[key])) fail(file, 0, `${key} must be a number`);
     const rules = { negate: yaml.negate === 1 || yaml.negate === true, occupied: yaml.occupied_thresh, free: yaml.free_thresh, raw: String(yaml.mode).toLowerCase() === 'raw' };
-    return { ...cellsOf(picture, rules), resolution: yaml.resolution, origin, unknownIsOccupied: true, name: nameOf(file) };
+    return { ...cellsOf(picture, rules), resolution: yaml.resolution, origin, unknownIsOccupied: true, name: nameOf(file).replace(/_map$/, '') };
   }
 
   function cellsOf(picture, rules) {
@@ -197,22 +197,32 @@ const Formats = (() => {
     return { columns: width, rows: height, cells };
   }
 
-  // A map without a problem: the car starts at a free place.
+  // A map without a problem: from one free place to the farthest that is joined to it by free places.
   function mapScene(map, name, known) {
-    const car = vehicle(name, 'vw_golf8', known), need = Math.ceil(3 / map.resolution), free = [];
-    const step = Math.max(1, Math.round(1 / map.resolution));
-    for (let row = need; row < map.rows - need; row += step)
-      for (let column = need; column < map.columns - need; column += step) {
-        let hasSpace = true;
-        for (let r = row - need; r <= row + need && hasSpace; r += 1) for (let c = column - need; c <= column + need; ++c) if (map.cells[r * map.columns + c] !== 0) { hasSpace = false; break; }
-        if (hasSpace) free.push([column, row]);
-      }
-    if (!free.length) fail(name, 0, 'the map has no free place for a car');
-    const [ox, oy, yaw] = map.origin, place = ([column, row]) => {
-      const x = (column + 0.5) * map.resolution, y = (row + 0.5) * map.resolution;
-      return [ox + x * Math.cos(yaw) - y * Math.sin(yaw), oy + x * Math.sin(yaw) + y * Math.cos(yaw), 0];
+    const car = vehicle(name, 'vw_golf8', known), { columns, rows, resolution, cells } = map, [ox, oy, yaw] = map.origin, margin = 0.3;
+    const step = Math.max(1, Math.round(1 / resolution)), back = Math.ceil((car.rear_overhang + margin) / resolution), front = Math.ceil((car.wheelbase + car.front_overhang + margin) / resolution), half = Math.ceil((car.width / 2 + margin) / resolution);
+    // The rear axle is in a cell, the car along the rows of the map.
+    const fits = (column, row) => {
+      if (column < back || row < half || column + front >= columns || row + half >= rows) return false;
+      for (let r = row - half; r <= row + half; ++r) for (let c = column - back; c <= column + front; ++c) if (cells[r * columns + c] !== 0) return false;
+      return true;
     };
-    return { name, vehicle: car, start: place(free[0]), goals: [place(free[free.length - 1])], slot: null, polygons: [], map };
+    const place = ([column, row]) => {
+      const x = (column + 0.5) * resolution, y = (row + 0.5) * resolution;
+      return [ox + x * Math.cos(yaw) - y * Math.sin(yaw), oy + x * Math.sin(yaw) + y * Math.cos(yaw), yaw];
+    };
+    // The largest of the joined regions, each in the order of a flood from its first place.
+    const seen = new Set();
+    let best = [];
+    for (let row = half; row < rows; row += step)
+      for (let column = back; column < columns; column += step) {
+        const region = [], add = (c, r) => { if (!seen.has(r * columns + c) && fits(c, r)) { seen.add(r * columns + c); region.push([c, r]); } };
+        add(column, row);
+        for (let i = 0; i < region.length; ++i) for (const [dc, dr] of [[step, 0], [-step, 0], [0, step], [0, -step]]) add(region[i][0] + dc, region[i][1] + dr);
+        if (region.length > best.length) best = region;
+      }
+    if (!best.length) fail(name, 0, 'the map has no free place for a car');
+    return { name, vehicle: car, start: place(best[0]), goals: [place(best[best.length - 1])], slot: null, polygons: [], map };
   }
 
   // The scene from dropped or chosen files.

@@ -19,6 +19,10 @@ const Panels = (() => {
   function report(text) { byId('summary').textContent = text; }
 
   const OUTCOMES = ['Parked', 'Only near the goal', 'No path', 'Time limit', 'The start is blocked', 'The goal is blocked', 'Led out of contact'];
+  // The planner beside ours, and whether a car can drive a path.
+  const TEXTBOOK = 'textbook_hybrid_astar', LABELS = { paper_improved_astar: 'paper_improved_astar (the paper)', [TEXTBOOK]: "the textbook's Hybrid A*" };
+  const DRIVABLE = ['yes', 'no, turns too tightly', 'no, hits an obstacle'];
+  const canDrive = p => Number.isFinite(p[1]) ? DRIVABLE[p[16]] : '\u2013';
   const fixed = (value, digits, unit = '') => Number.isFinite(value) ? value.toFixed(digits) + unit : '\u2013';
   const clearance = metres => !Number.isFinite(metres) ? '\u2013' : metres < 0.1 ? fixed(1000 * metres, 0, ' mm') : fixed(metres, 2, ' m');
   // An unfinished plan under the short limit while dragging has no result yet.
@@ -35,9 +39,9 @@ const Panels = (() => {
     byId('figures').tBodies[0].replaceChildren();
   }
   function figures(plan, other, duration) {
-    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['minimum clearance', clearance(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions attempted', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
+    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['minimum clearance', clearance(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions attempted', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['a car can drive it', canDrive(p)], ['turning radius', fixed(p[15], 2, ' m')]];
     const mine = rows(plan.summary, duration), theirs = other ? rows(other.summary, NaN) : null;
-    const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right'))] : [];
+    const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right')), element('tr', { class: 'words' }, element('td', {}, 'result'), ...[plan, other].map(each => element('td', {}, OUTCOMES[each.summary[0]])))] : [];
     byId('figures').tBodies[0].replaceChildren(...head, ...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), element('td', {}, value), ...(theirs ? [element('td', {}, theirs[i][1])] : []))));
   }
 
@@ -113,18 +117,25 @@ const Panels = (() => {
   byId('filter').addEventListener('input', filter);
   byId('defaults').addEventListener('click', () => { chosen = {}; showParameters(); onParameters(); });
 
+  // A name that may go on in the next line behind its underscores.
+  const broken = name => name.split('_').flatMap((part, index) => index ? ['_', element('wbr'), part] : [part]);
   function ablation(rows) {
-    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, name), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], p[10] < 10 ? 1 : 0))));
-    byId('table-wrap').replaceChildren(element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'expanded', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
+    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, ...broken(name)), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', { class: p[16] ? 'bad' : '', title: canDrive(p) }, canDrive(p).slice(0, 3).replace(',', '')), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], p[10] < 10 ? 1 : 0))));
+    const wrong = rows.filter(([, p]) => Number.isFinite(p[1]) && p[16]).length;
+    const note = `No car can drive ${wrong} of these ${rows.length} paths. The paper's sets plan on a grid for a disc that turns on the spot: their lengths and changes of direction compare with each other only.`;
+    byId('table-wrap').replaceChildren(...(wrong ? [element('p', {}, note)] : []), element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'drivable', 'nodes', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
   }
 
   function begin(about, changed) {
     table = about.parameters; vehicles = about.vehicles; onParameters = changed;
     const sets = table.find(row => row.name === 'parameter_set').names;
-    byId('compare').append(...sets.map(each => element('option', { value: each }, each === 'improved_astar' ? 'improved_astar (the paper)' : each)));
+    byId('compare').append(...[TEXTBOOK, ...sets].map(each => element('option', { value: each }, LABELS[each] || each)));
     showParameters();
   }
   return { begin, notice, report, verdict, wrong, figures, showVehicle, showSlot, showParameters, ablation, byId, element,
     get parameters() { return chosen; }, set parameters(values) { chosen = values; showParameters(); }, get vehicles() { return vehicles; },
-    get sets() { return table.find(row => row.name === 'parameter_set').names; }, set goals(numbers) { goals = numbers; }, knows: name => table.some(row => row.name === name) };
+    get sets() { return table.find(row => row.name === 'parameter_set').names; }, set goals(numbers) { goals = numbers; }, knows: name => table.some(row => row.name === name),
+    get compared() { return [TEXTBOOK, ...table.find(row => row.name === 'parameter_set').names]; }, labelOf: name => LABELS[name] || name,
+    parametersOf: name => name === TEXTBOOK ? { planner: TEXTBOOK } : { parameter_set: name }, isTextbook: name => name === TEXTBOOK,
+    valueOf: name => chosen[name] === undefined ? String(table.find(row => row.name === name).value) : chosen[name] };
 })();

@@ -14,10 +14,10 @@ const Scene = (() => {
     tell(what);
   }
 
-  // Records the scene before a change, for undo.
-  function remember() {
-    if (!scene) return;
-    past.push(copy(scene));
+  // Records the scene before a change, for undo: as it is, or an earlier copy of it.
+  function remember(before = scene) {
+    if (!before) return;
+    past.push(copy(before));
     if (past.length > 100) past.shift();
     future = [];
   }
@@ -58,6 +58,16 @@ const Scene = (() => {
     return false;
   }
 
+  // Whether the areas of two polygons overlap.
+  function overlaps(one, other) {
+    const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const sidesCross = one.some((a, i) => other.some((c, j) => {
+      const b = one[(i + 1) % one.length], d = other[(j + 1) % other.length];
+      return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
+    }));
+    return sidesCross || contains(one, other[0]) || contains(other, one[0]);
+  }
+
   // Objects that can be selected: {kind: 'start' | 'goal' | 'slot' | 'polygon', index}.
   function poseOf(thing) {
     if (thing.kind === 'start') return scene.start;
@@ -87,7 +97,7 @@ const Scene = (() => {
 
   return {
     get current() { return scene; },
-    replace, remember, undo, redo, changed, copy, footprint, slotOutline, area, middle, contains, crosses, poseOf, move, turn, things, nameOf, wrap,
+    replace, remember, undo, redo, changed, copy, footprint, slotOutline, area, middle, contains, crosses, overlaps, poseOf, move, turn, things, nameOf, wrap,
     canUndo: () => past.length > 0, canRedo: () => future.length > 0,
     listen: listener => listeners.push(listener)
   };

@@ -2,7 +2,7 @@
 
 const Tools = (() => {
   const canvas = document.getElementById('view'), pointers = new Map();
-  let tool = 'select', selected = { kind: 'start' }, drag = null, outline = null, pinch = null, onChange = () => {}, onView = () => {}, hover = null;
+  let tool = 'select', selected = { kind: 'start' }, drag = null, outline = null, ghost = null, pinch = null, turned = 0, onChange = () => {}, onView = () => {}, hover = null;
 
   const size = () => [canvas.clientWidth, canvas.clientHeight];
   // In a comparison both halves show the same part of the world.
@@ -27,18 +27,26 @@ const Tools = (() => {
   }
 
   function select(thing) { selected = thing; onView(); }
+  // A car to be placed appears in the middle of the view and follows the pointer or the arrow keys.
   function use(name) {
     tool = name;
     outline = null;
+    ghost = name === 'car' && Scene.current ? [View.view.x, View.view.y, Scene.current.start[2]] : null;
+    if (ghost) canvas.focus({ preventScroll: true });
     for (const button of document.querySelectorAll('[data-tool]')) button.setAttribute('aria-pressed', String(button.dataset.tool === name));
-    canvas.style.cursor = name === 'select' ? 'grab' : 'crosshair';
+    canvas.style.cursor = name === 'select' ? 'default' : 'crosshair';
     onView();
   }
 
-  function parkedCar([x, y]) {
+  function parkedCar([x, y, yaw]) {
     const car = Scene.current.vehicle, back = car.rear_overhang, length = back + car.wheelbase + car.front_overhang, half = car.width / 2, r = 0.25;
-    const yaw = Scene.current.start[2], c = Math.cos(yaw), s = Math.sin(yaw), a = length / 2;
+    const c = Math.cos(yaw), s = Math.sin(yaw), a = length / 2;
     return [[-a, -half + r], [-a + r, -half], [a - r, -half], [a, -half + r], [a, half - r], [a - r, half], [-a + r, half], [-a, half - r]].map(([u, v]) => [x + c * u - s * v, y + s * u + c * v]);
+  }
+  function placeCar() {
+    const scene = Scene.current;
+    if (mayAdd()) { Scene.remember(); scene.polygons.push(parkedCar(ghost)); selected = { kind: 'polygon', index: scene.polygons.length - 1 }; Scene.changed(); onChange('placed'); }
+    use('select');
   }
   const mayAdd = () => { if (!Scene.current.map) return true; Panels.notice('Obstacles can be added to worlds of polygons, not to maps.'); return false; };
 
@@ -59,8 +67,8 @@ const Tools = (() => {
     canvas.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, at);
     if (pointers.size === 2) { const [a, b] = [...pointers.values()]; pinch = { distance: Math.hypot(a[0] - b[0], a[1] - b[1]) }; drag = null; return; }
-    if (event.button === 1 || event.button === 2) { drag = { kind: 'pan', at }; return; }
-    if (tool === 'car') { if (mayAdd()) { Scene.remember(); scene.polygons.push(parkedCar(point)); selected = { kind: 'polygon', index: scene.polygons.length - 1 }; Scene.changed(); } use('select'); return; }
+    if (event.button === 1 || event.button === 2) { drag = { kind: 'pan', at }; canvas.style.cursor = 'grabbing'; return; }
+    if (tool === 'car') { ghost = [...point, ghost ? ghost[2] : scene.start[2]]; placeCar(); return; }
     if (tool === 'polygon') {
       if (!mayAdd()) { use('select'); return; }
       outline = outline || { corners: [] };
@@ -70,18 +78,26 @@ const Tools = (() => {
       onView();
       return;
     }
-    if (tool === 'slot') { Scene.remember(); drag = { kind: 'slot', from: point }; return; }
-    if (selected) {
-      const handle = Draw.handleOf(scene, selected);
-      if (Math.hypot(handle[0] - point[0], handle[1] - point[1]) < 1.4 * reach) { Scene.remember(); drag = { kind: 'turn' }; return; }
-      if (selected.kind === 'polygon') {
-        const corner = scene.polygons[selected.index].findIndex(([x, y]) => Math.hypot(x - point[0], y - point[1]) < reach);
-        if (corner >= 0) { Scene.remember(); drag = { kind: 'corner', corner }; return; }
+    if (tool === 'slot') { drag = { kind: 'slot', from: point, begin: at }; return; }
+    drag = grip(point, event.pointerType) || { kind: 'pan' };
+    drag.begin = drag.at = at;
+    canvas.style.cursor = 'grabbing';
+    if (drag.thing) { selected = drag.thing; onView(); }
+  }
+
+  // The drag that begins at a point, or null on the ground.
+  function grip(point, pointer) {
+    const scene = Scene.current, reach = 14 / View.view.scale, chosen = Tools.selected;
+    if (chosen) {
+      const handle = Draw.handleOf(scene, chosen);
+      if (Math.hypot(handle[0] - point[0], handle[1] - point[1]) < 1.4 * reach) return { kind: 'turn' };
+      if (chosen.kind === 'polygon') {
+        const corner = scene.polygons[chosen.index].findIndex(([x, y]) => Math.hypot(x - point[0], y - point[1]) < reach);
+        if (corner >= 0) return { kind: 'corner', corner };
       }
     }
-    const found = thingAt(point, event.pointerType === 'touch' ? 0.6 : 0.2);
-    if (found) { selected = found; Scene.remember(); drag = { kind: 'move', last: point }; canvas.style.cursor = 'grabbing'; onView(); }
-    else drag = { kind: 'pan', at };
+    const thing = thingAt(point, pointer === 'touch' ? 0.6 : 0.2);
+    return thing && { kind: 'move', thing, last: point };
   }
 
   function moved(event) {
@@ -96,9 +112,19 @@ const Tools = (() => {
       onView();
       return;
     }
-    if (outline) onView();
-    if (!drag) return;
+    if (ghost) ghost = [...point, ghost[2]];
+    if (outline || ghost) onView();
+    if (!drag) {
+      if (tool === 'select') canvas.style.cursor = grip(point, event.pointerType) ? 'grab' : 'default';
+      return;
+    }
     if (drag.kind === 'pan') { View.view.x -= (at[0] - drag.at[0]) / View.view.scale; View.view.y += (at[1] - drag.at[1]) / View.view.scale; drag.at = at; onView(); return; }
+    // A click that trembles changes nothing.
+    if (!drag.moved) {
+      if (Math.hypot(at[0] - drag.begin[0], at[1] - drag.begin[1]) < 3) return;
+      drag.moved = true;
+      Scene.remember();
+    }
     if (drag.kind === 'move') { Scene.move(selected, point[0] - drag.last[0], point[1] - drag.last[1]); drag.last = point; }
     else if (drag.kind === 'turn') {
       const pose = Scene.poseOf(selected), angle = Math.atan2(point[1] - pose[1], point[0] - pose[0]);
@@ -113,6 +139,7 @@ const Tools = (() => {
       scene.slot = { kind: upright ? 'perpendicular' : 'parallel', pose: [(x + point[0]) / 2, (y + point[1]) / 2, upright ? toCar * Math.PI / 2 : 0], length: upright ? length : width, width: upright ? width : length, entry: 'reverse', angle: Math.PI / 4, side: 'either', depth: null, lateral_offset: 0 };
       scene.goals = [];
       selected = { kind: 'slot' };
+      Panels.showSlot();
     }
     Scene.changed();
   }
@@ -123,8 +150,8 @@ const Tools = (() => {
     const was = drag;
     drag = null;
     if (was && was.kind === 'slot') use('select');
-    if (tool === 'select') canvas.style.cursor = 'grab';
-    if (was && was.kind !== 'pan') onChange('settled');
+    if (tool === 'select') canvas.style.cursor = Scene.current && grip(world(position(event)), event.pointerType) ? 'grab' : 'default';
+    if (was && was.moved) onChange(was.kind === 'move' ? 'moved ' + selected.kind : was.kind);
   }
 
   function remove() {
@@ -160,7 +187,12 @@ const Tools = (() => {
   });
   canvas.addEventListener('wheel', event => {
     event.preventDefault();
-    if (event.shiftKey && selected) { Scene.turn(selected, -Math.sign(event.deltaY || event.deltaX) * Math.PI / 60); Scene.changed(); onChange('settled'); return; }
+    if (event.shiftKey && selected) {
+      // One step of undo for a turn of the wheel, however many notches it has.
+      if (event.timeStamp - turned > 600) Scene.remember();
+      turned = event.timeStamp;
+      Scene.turn(selected, -Math.sign(event.deltaY || event.deltaX) * Math.PI / 60); Scene.changed(); onChange('turn'); return;
+    }
     View.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0016)), position(event), ...pane());
     onView();
   }, { passive: false });
@@ -174,19 +206,28 @@ const Tools = (() => {
       event.preventDefault();
       select(all[next]);
       Panels.report(`${Scene.nameOf(all[next])} is selected`);
-    } else if (steps && selected) { event.preventDefault(); Scene.remember(); Scene.move(selected, steps[0] * (fine ? 0.01 : 0.1), steps[1] * (fine ? 0.01 : 0.1)); Scene.changed(); onChange('settled'); }
-    else if ((key === 'q' || key === 'e') && selected) { Scene.remember(); Scene.turn(selected, (key === 'q' ? 1 : -1) * Math.PI / 180 * (fine ? 1 : 5)); Scene.changed(); onChange('settled'); }
+    } else if (ghost && (steps || key === 'q' || key === 'e' || event.key === 'Enter')) {
+      event.preventDefault();
+      if (event.key === 'Enter') { placeCar(); return; }
+      const metres = fine ? 0.05 : 0.5;
+      ghost = steps ? [ghost[0] + metres * steps[0], ghost[1] + metres * steps[1], ghost[2]] : [ghost[0], ghost[1], Scene.wrap(ghost[2] + (key === 'q' ? 1 : -1) * Math.PI / 180 * (fine ? 1 : 5))];
+      onView();
+    } else if (steps && selected) { event.preventDefault(); Scene.remember(); Scene.move(selected, steps[0] * (fine ? 0.01 : 0.1), steps[1] * (fine ? 0.01 : 0.1)); Scene.changed(); onChange('moved ' + selected.kind); }
+    else if ((key === 'q' || key === 'e') && selected) { Scene.remember(); Scene.turn(selected, (key === 'q' ? 1 : -1) * Math.PI / 180 * (fine ? 1 : 5)); Scene.changed(); onChange('turn'); }
     else if (event.key === 'Delete' || event.key === 'Backspace') { event.preventDefault(); remove(); }
     else if (event.key === 'Enter') closeOutline();
     else if (event.key === 'Escape') use('select');
   });
   for (const button of document.querySelectorAll('[data-tool]')) button.addEventListener('click', () => use(button.dataset.tool));
 
+  canvas.addEventListener('pointerleave', () => { hover = null; onView(); });
+
   return {
     use, remove, select, closeOutline,
     get selected() { const scene = Scene.current; return selected && scene && (selected.kind !== 'polygon' || scene.polygons[selected.index]) && (selected.kind !== 'goal' || (!scene.slot && scene.goals[selected.index])) && (selected.kind !== 'slot' || scene.slot) ? selected : null; },
+    get tool() { return tool; }, get ghost() { return ghost && parkedCar(ghost); },
     get outline() { return outline; }, get hover() { return hover; }, get dragging() { return drag !== null && drag.kind !== 'pan'; },
     set halves(count) { halves = count; },
-    listen: (change, view) => { onChange = change; onView = view; }, reset: () => { selected = { kind: 'start' }; outline = null; drag = null; }
+    listen: (change, view) => { onChange = change; onView = view; }, reset: () => { selected = { kind: 'start' }; outline = ghost = drag = null; }
   };
 })();

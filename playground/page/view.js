@@ -3,11 +3,12 @@
 const View = (() => {
   const view = { x: 0, y: 0, scale: 30 };  // the point in the middle, pixels per metre
 
-  function fit(box, width, height, margin = 40) {
+  // Shows a box, with a margin at its sides and more where text lies over the scene; all in pixels.
+  function fit(box, width, height, margin, above, below) {
     const w = Math.max(1, box[2] - box[0]), h = Math.max(1, box[3] - box[1]);
+    view.scale = Math.max(1, Math.min((width - 2 * margin) / w, (height - above - below) / h, 120));
     view.x = (box[0] + box[2]) / 2;
-    view.y = (box[1] + box[3]) / 2;
-    view.scale = Math.max(1, Math.min((width - 2 * margin) / w, (height - 2 * margin) / h, 120));
+    view.y = (box[1] + box[3]) / 2 + (above - below) / 2 / view.scale;
   }
   const toScreen = ([x, y], width, height) => [width / 2 + (x - view.x) * view.scale, height / 2 - (y - view.y) * view.scale];
   const toWorld = ([x, y], width, height) => [view.x + (x - width / 2) / view.scale, view.y - (y - height / 2) / view.scale];
@@ -62,12 +63,12 @@ class CanvasPainter {
     c.fillText(words, x, y + (style.dy || 0));
     c.restore();
   }
-  image(picture, origin, metresPerPixel, rows) {
+  image(picture, origin, metresPerPixel, rows, smooth = false) {
     const c = this.context, s = this.view.scale * metresPerPixel, [x, y] = this.at(origin);
     c.save();
     c.translate(x, y);
     c.rotate(-origin[2]);
-    c.imageSmoothingEnabled = false;
+    c.imageSmoothingEnabled = smooth;
     c.drawImage(picture, 0, -rows * s, picture.width * s, rows * s);
     c.restore();
   }
@@ -92,9 +93,9 @@ class SvgPainter {
     const [x, y] = this.at(point), clean = words.replace(/[<>&"]/g, each => `&#${each.charCodeAt(0)};`);
     this.parts.push(`<text x="${x}" y="${y + (style.dy || 0)}" fill="${style.fill}" font-family="sans-serif" font-size="12" font-weight="600" text-anchor="middle" dominant-baseline="middle">${clean}</text>`);
   }
-  image(picture, origin, metresPerPixel, rows) {
+  image(picture, origin, metresPerPixel, rows, smooth = false) {
     const s = this.view.scale * metresPerPixel, [x, y] = this.at(origin);
-    this.parts.push(`<image href="${picture.toDataURL('image/png')}" width="${picture.width * s}" height="${rows * s}" style="image-rendering:pixelated" transform="translate(${x} ${y}) rotate(${-origin[2] * 180 / Math.PI}) translate(0 ${-rows * s})"/>`);
+    this.parts.push(`<image href="${picture.toDataURL('image/png')}" width="${picture.width * s}" height="${rows * s}" style="image-rendering:${smooth ? 'auto' : 'pixelated'}" transform="translate(${x} ${y}) rotate(${-origin[2] * 180 / Math.PI}) translate(0 ${-rows * s})"/>`);
   }
   toString(background) {
     return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${this.width} ${this.height}" width="${this.width}" height="${this.height}"><rect width="100%" height="100%" fill="${background}"/>${this.parts.join('\n')}</svg>\n`;

@@ -15,7 +15,7 @@ function setParameter(module, name, value) {
   return done;
 }
 
-const OUTPUTS = ['summary', 'path', 'pieces', 'trajectory', 'startTree', 'goalTree', 'steps', 'goals', 'slot', 'bounds'];
+const OUTPUTS = ['summary', 'path', 'pieces', 'trajectory', 'startTree', 'goalTree', 'steps', 'goals', 'slot', 'bounds', 'field'];
 function output(module, name) {
   const which = OUTPUTS.indexOf(name), size = module._playground_output_size(which);
   if (!size) return new Float64Array(0);
@@ -38,14 +38,19 @@ function answer(module, question) {
   const failed = () => { answer.message = textOf(module, module._playground_message()); return answer; };
   if (!setScene(module, question)) return failed();
   for (const name of ['goals', 'slot', 'bounds']) answer[name] = output(module, name);
+  const isFree = pose => module._playground_is_free(...pose) !== 0;
+  answer.startIsFree = isFree(question.start);
+  answer.freeGoals = [];
+  for (let i = 0; i + 3 <= answer.goals.length; i += 3) answer.freeGoals.push(isFree(answer.goals.slice(i, i + 3)));
+  if (question.field && module._playground_field(question.field)) answer.field = output(module, 'field');
   answer.plans = [];
   for (const parameters of question.parameters) {
+    const plan = {}, byTextbook = parameters.planner === 'textbook_hybrid_astar';
     module._playground_reset_parameters();
     // The set first: it changes the others.
-    const names = Object.keys(parameters).sort((a, b) => (b === 'parameter_set') - (a === 'parameter_set'));
+    const names = byTextbook ? [] : Object.keys(parameters).sort((a, b) => (b === 'parameter_set') - (a === 'parameter_set'));
     for (const name of names) if (!setParameter(module, name, parameters[name])) return failed();
-    const plan = {};
-    if (!module._playground_plan(question.seconds, 0)) return failed();
+    if (!(byTextbook ? module._playground_plan_by_textbook(question.seconds) : module._playground_plan(question.seconds, 0))) return failed();
     plan.message = textOf(module, module._playground_message());
     for (const name of ['summary', 'path', 'pieces']) plan[name] = output(module, name);
     if (question.trajectory) {

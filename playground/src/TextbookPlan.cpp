@@ -41,7 +41,7 @@ namespace parking::playground
                 if (i > 0)
                     each.length = nodes[i].direction * search.parameters().motionLength;
                 each.cost = static_cast<float>(nodes[i].cost);
-                each.ahead = static_cast<float>(search.heuristic(nodes[i].pose));
+                each.ahead = static_cast<float>(nodes[i].ahead);
                 each.expanded = nodes[i].closed;
                 trace.start.push_back(each);
             }

@@ -14,7 +14,7 @@ PROGRAM = next((found for found in map(shutil.which, ('chromium', 'chromium-brow
 class Browser:
     """One page. What it says on its console, errors above all, is kept in `console`."""
 
-    def __init__(self, width=1400, height=900, dark=False):
+    def __init__(self, width=1400, height=900, dark=False, still=False):
         self.profile = tempfile.mkdtemp()
         to_read, to_write = os.pipe(), os.pipe()
 
@@ -39,8 +39,9 @@ class Browser:
         self.call('Runtime.enable')
         self.call('Log.enable')
         self.resize(width, height)
-        self.call('Emulation.setEmulatedMedia',
-                  features=[{'name': 'prefers-color-scheme', 'value': 'dark' if dark else 'light'}])
+        self.features = [{'name': 'prefers-color-scheme', 'value': 'dark' if dark else 'light'},
+                         {'name': 'prefers-reduced-motion', 'value': 'reduce' if still else 'no-preference'}]
+        self.medium('')
 
     def close(self):
         """Ends the browser."""
@@ -114,7 +115,24 @@ class Browser:
 
     def resize(self, width, height, mobile=False):
         """The size of the window; mobile: as of a phone that is touched."""
+        self.call('Emulation.setTouchEmulationEnabled', enabled=mobile)
         self.call('Emulation.setDeviceMetricsOverride', width=width, height=height, deviceScaleFactor=1, mobile=mobile)
+
+    def medium(self, name):
+        """What the page is shown on: 'print', or '' for a screen."""
+        self.call('Emulation.setEmulatedMedia', media=name, features=self.features)
+
+    def force(self, selector, states):
+        """Has all elements that a selector finds in states such as 'hover' and 'active' until told otherwise."""
+        self.call('DOM.enable')
+        self.call('CSS.enable')
+        root = self.call('DOM.getDocument')['root']['nodeId']
+        for node in self.call('DOM.querySelectorAll', nodeId=root, selector=selector)['nodeIds']:
+            self.call('CSS.forcePseudoState', nodeId=node, forcedPseudoClasses=states)
+
+    def touch(self, kind, *points):
+        """A finger: touchStart and touchMove with a point, touchEnd without."""
+        self.call('Input.dispatchTouchEvent', type=kind, touchPoints=[{'x': x, 'y': y} for x, y in points])
 
     def open(self, file, fragment=''):
         """Loads a file."""

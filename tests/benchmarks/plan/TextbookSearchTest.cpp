@@ -45,7 +45,7 @@ namespace
         EXPECT_EQ(path.front().x, start.x);
         EXPECT_EQ(path.back().y, goal.y);
         EXPECT_EQ(search.growth().size(), 1u);
-        EXPECT_NEAR(search.heuristic(start), ReedsShepp(RADIUS).distance(start, goal), 1e-12);
+        EXPECT_NEAR(search.nodes().front().ahead, ReedsShepp(RADIUS).distance(start, goal), 1e-12);
     }
 
     TEST(TextbookSearch, ItsMotionsAreJoinedAndFree)
