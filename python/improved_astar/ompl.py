@@ -31,8 +31,8 @@ except ImportError as error:
 __all__ = ['DrivingCostObjective', 'FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator',
            'pathCost', 'simpleSetup']
 
-MAX_SAMPLED_GOALS = 16   # read at first from a region
-MAX_LISTED_GOALS = 1000  # read at first from a list
+MAX_SAMPLED_GOALS = 16   # read at first from a region or a longer list
+MAX_LISTED_GOALS = 1000  # all are read from a list of this length
 GOAL_ATTEMPTS = 1000     # samples of a region for a first valid or reachable goal
 SUMMED_WEIGHTS = ('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty', 'clearance_cost')
 WEIGHTS = (*SUMMED_WEIGHTS, 'preferred_clearance', 'turning_radius')
@@ -106,17 +106,22 @@ def _isSampling(goal: ob.Goal) -> bool:
     return isinstance(goal, ob.GoalLazySamples) and goal.isSampling()
 
 
+def _isShort(goal: ob.GoalSampleableRegion) -> bool:
+    """Whether the goals are so few that all are read at first."""
+    return goal.maxSampleCount() <= MAX_LISTED_GOALS
+
+
 def _isList(goal: ob.GoalSampleableRegion) -> bool:
     """Whether the goals are a list. Large finite numbers of samples stand for a continuous region."""
-    return isinstance(goal, ob.GoalStates) or goal.maxSampleCount() <= MAX_LISTED_GOALS
+    return isinstance(goal, ob.GoalStates) or _isShort(goal)
 
 
-def _storedGoals(goal: ob.Goal) -> List[Pose]:
-    """Returns the goals that OMPL has stored so far: those of a goal state or a list."""
+def _storedGoals(goal: ob.Goal, count: int) -> List[Pose]:
+    """Returns up to count goals that OMPL has stored so far: those of a goal state or a list."""
     if isinstance(goal, ob.GoalState):
         return [_poseOf(goal.getState())]
     if isinstance(goal, ob.GoalStates):
-        return [_poseOf(goal.getState(index)) for index in range(goal.getStateCount())]
+        return [_poseOf(goal.getState(index)) for index in range(min(count, goal.getStateCount()))]
     return []
 
 
@@ -449,7 +454,8 @@ class ImprovedAStar(ob.Planner):
         objective, own = pdef.getOptimizationObjective(), self._params.current
         asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), objective, own,
                  _searchParameters(objective, own))
-        starts, storedGoals = self._validStarts(pdef), _storedGoals(goal)
+        # Goals beyond those that were read do not matter. To read a long list takes longer than to search.
+        starts, storedGoals = self._validStarts(pdef), _storedGoals(goal, max(MAX_LISTED_GOALS, len(self._goals)))
         if self._query is not None and not (all(a is b or a == b for a, b in zip(asked, self._asked))
                                             and starts[:len(self._starts)] == self._starts
                                             and storedGoals[:len(self._storedGoals)] == self._storedGoals):
@@ -511,7 +517,7 @@ class ImprovedAStar(ob.Planner):
     def _readGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> Any:
         """Reads the first goals. Returns None, INVALID_GOAL or TIMEOUT."""
         isList = _isList(goal)
-        maxGoals = MAX_LISTED_GOALS if isList else MAX_SAMPLED_GOALS
+        maxGoals = MAX_LISTED_GOALS if _isShort(goal) else MAX_SAMPLED_GOALS
         attempt = 0
         while (isList or attempt < GOAL_ATTEMPTS) and self._inputs.haveMoreGoalStates() and \
                 (attempt == 0 or not ptc()):
@@ -535,13 +541,16 @@ class ImprovedAStar(ob.Planner):
     def _mayHaveOtherGoals(self, goal: ob.GoalSampleableRegion) -> bool:
         return self._inputs.haveMoreGoalStates() or _isSampling(goal)
 
-    def _readAnotherGoal(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
-        while not ptc() and self._mayHaveOtherGoals(goal) and \
+    def _readMoreGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
+        """Reads up to as many goals again as there are: to search on takes longer the more there are."""
+        known = len(self._goals)
+        while not ptc() and self._mayHaveOtherGoals(goal) and len(self._goals) < 2 * known and \
                 (_isList(goal) or self._otherGoals < GOAL_ATTEMPTS):
             self._otherGoals += 1
-            if self._addGoal(self._inputs.nextGoal(ptc) if _isSampling(goal) else self._inputs.nextGoal()):
-                return True
-        return False
+            waits = _isSampling(goal)
+            if self._addGoal(self._inputs.nextGoal(ptc) if waits else self._inputs.nextGoal()) and waits:
+                break
+        return len(self._goals) > known
 
     def _anyGoal(self, goal: ob.GoalSampleableRegion) -> Optional[Pose]:
         if goal.maxSampleCount() == 0:
@@ -567,7 +576,7 @@ class ImprovedAStar(ob.Planner):
         if self._goals:
             judgeOrNone = judge if objective is not None else None
             outcome = query.solve(ptc, judgeOrNone)
-            while outcome == 'exhausted' and self._readAnotherGoal(goal, ptc):
+            while outcome == 'exhausted' and self._readMoreGoals(goal, ptc):
                 outcome = query.solve(ptc, judgeOrNone)
             isExhausted = outcome == 'exhausted'
         isInfeasible = isExhausted and not self._mayHaveOtherGoals(goal)
@@ -599,7 +608,7 @@ class ImprovedAStar(ob.Planner):
             return goal.isSatisfiedWithDistance(state)[1]
         # The goal itself would measure the distance to states out of bounds, which ends the program.
         differences = []
-        for pose in self._goals or [target]:
+        for pose in self._goals[:MAX_LISTED_GOALS] or [target]:  # thousands would take longer than is left
             _put(self._state, pose)
             self._si.enforceBounds(self._state)
             differences.append(self._si.distance(state, self._state))
