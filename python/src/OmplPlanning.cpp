@@ -264,7 +264,7 @@ namespace parking::python
                       const py::dict &own)
               : footprint_(footprint),
                 parameters_(parametersFrom(parameters)),
-                own_(parametersFrom(own)),
+                own_(own.is(parameters) ? parameters_ : parametersFrom(own)),
                 world_(world),
                 isPlain_(space == "se2"),
                 turnsOnTheSpot_(search::turnsOnTheSpot(parameters_.motionModel)),
