@@ -47,14 +47,12 @@ class _Space:
 
     def __init__(self, si: ob.SpaceInformation) -> None:
         space = si.getStateSpace()
-        self.radius = 0.0  # of the curves in metres
         if isinstance(space, ob.ReedsSheppStateSpace):
-            self.kind, base, unit = 'reeds_shepp', ob.ReedsSheppStateSpace, ob.ReedsSheppStateSpace(1.0)
+            self.kind, base = 'reeds_shepp', ob.ReedsSheppStateSpace
         elif isinstance(space, ob.DubinsStateSpace):
-            isSymmetric = ob.DubinsStateSpace.hasSymmetricInterpolate(space)
-            self.kind, base, unit = 'dubins', ob.DubinsStateSpace, ob.DubinsStateSpace(1.0, isSymmetric)
+            self.kind, base = 'dubins', ob.DubinsStateSpace
         elif isinstance(space, ob.SE2StateSpace):
-            self.kind, base, unit = 'se2', ob.SE2StateSpace, None
+            self.kind, base = 'se2', ob.SE2StateSpace
         else:
             raise Error('space must be an SE2, a Reeds-Shepp or a Dubins state space, not '
                         f'{type(space).__name__}')
@@ -64,11 +62,22 @@ class _Space:
         self.satisfiesBounds = functools.partial(base.satisfiesBounds, space)
         self.isSymmetric = base.hasSymmetricInterpolate(space)
         self._getBounds = functools.partial(base.getBounds, space)
-        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
-        self._first, self._last, self._between = self.allocState(), self.allocState(), self.allocState()
-        if unit is not None:  # OMPL has no getter for the radius. A distance is proportional to it.
-            ends = _put(self._first, (0.0, 0.0, 0.0)), _put(self._last, (0.0, 0.0, 0.5 * math.pi))
-            self.radius = self.distance(*ends) / unit.distance(*ends)
+
+    @functools.cached_property
+    def states(self) -> Tuple[ob.State, ob.State, ob.State]:
+        """Three states for all queries, because OMPL does not free all memory of a state that Python deletes."""
+        return self.allocState(), self.allocState(), self.allocState()
+
+    @functools.cached_property
+    def radius(self) -> float:
+        """Turning radius of the curves in metres, 0 on a plain space."""
+        if self.kind == 'se2':
+            return 0.0
+        unit = ob.ReedsSheppStateSpace(1.0) if self.kind == 'reeds_shepp' else \
+            ob.DubinsStateSpace(1.0, self.isSymmetric)
+        # OMPL has no getter for the radius. A distance is proportional to it.
+        ends = _put(self.states[0], (0.0, 0.0, 0.0)), _put(self.states[1], (0.0, 0.0, 0.5 * math.pi))
+        return self.distance(*ends) / unit.distance(*ends)
 
     def bounds(self) -> Tuple[float, float, float, float]:
         """Returns the smallest and the largest x, y."""
@@ -76,11 +85,11 @@ class _Space:
         return (*bounds.low, *bounds.high)
 
     def distanceBetween(self, first: Pose, last: Pose) -> float:
-        return self.distance(_put(self._first, first), _put(self._last, last))
+        return self.distance(_put(self.states[0], first), _put(self.states[1], last))
 
     def poseBetween(self, first: Pose, last: Pose, fraction: float) -> Pose:
-        self.interpolate(_put(self._first, first), _put(self._last, last), fraction, self._between)
-        return _poseOf(self._between)
+        self.interpolate(_put(self.states[0], first), _put(self.states[1], last), fraction, self.states[2])
+        return _poseOf(self.states[2])
 
 
 def _put(state: ob.State, pose: Pose) -> ob.State:
@@ -175,7 +184,6 @@ class SweptMotionValidator(ob.MotionValidator):
         self.checker = checker
         self._space = _Space(si)
         self._curvature = 1.0 / self._space.radius if self._space.radius else 0.0
-        self._between = self._space.allocState()
 
     def checkMotion(self, first: ob.State, last: ob.State) -> bool:
         if not self.checker.isValid(last):
@@ -183,9 +191,11 @@ class SweptMotionValidator(ob.MotionValidator):
         if self._space.kind == 'se2':
             return self.checker.footprint.is_line_free(*_poseOf(first), *_poseOf(last))
 
+        between = self._space.states[2]
+
         def at(fraction: float) -> Optional[Pose]:
-            self._space.interpolate(first, last, fraction, self._between)
-            return _poseOf(self._between) if self._space.satisfiesBounds(self._between) else None
+            self._space.interpolate(first, last, fraction, between)
+            return _poseOf(between) if self._space.satisfiesBounds(between) else None
 
         return self.checker.footprint.is_curve_free(at, self._space.distance(first, last), self._curvature)
 
@@ -227,7 +237,7 @@ class DrivingCostObjective(ob.OptimizationObjective):
             if type(checker) is FootprintChecker:
                 clearance = checker.footprint
             elif type(checker).clearance is not ob.StateValidityChecker.clearance:
-                state = self._space.allocState()
+                state = self._space.states[2]  # the core must not hold this object, which holds the core's
 
                 def clearance(*pose: float) -> float:
                     return checker.clearance(_put(state, pose))
@@ -343,8 +353,7 @@ class _World:
 
     def __init__(self, si: ob.SpaceInformation, space: _Space) -> None:
         self._si, self._space = si, space
-        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
-        self._first, self._last = self._space.allocState(), self._space.allocState()
+        self._first, self._last, _ = space.states
         self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
         self.isTimeUp: Callable[[], bool] = _never
 
@@ -400,7 +409,7 @@ class ImprovedAStar(ob.Planner):
         super().__init__(si, name)
         self._si, self._space = si, _Space(si)
         self._params = Parameters(parameters)
-        self._world, self._state = _World(si, self._space), self._space.allocState()
+        self._world, self._state = _World(si, self._space), self._space.states[2]
         self._dataStates: List[ob.State] = []
         self._inputs = ob.PlannerInputStates()
         self._clearQuery()

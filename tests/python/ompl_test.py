@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+import weakref
 
 import numpy
 import pytest
@@ -260,6 +261,10 @@ def test_the_driving_cost_uses_the_clearance_of_a_checker():
     for checker, cost in ((Checker, 8.0), (Clear, 8.0 + 2.0 * 6.0)):
         si.setStateValidityChecker(checker(si))
         assert objective.cost(path).value() == pytest.approx(cost, abs=0.6)
+    remains = weakref.ref(objective)
+    del objective
+    gc.collect()
+    assert remains() is None
 
 
 @pytest.mark.parametrize('planner', [og.RRTstar, og.BITstar])
