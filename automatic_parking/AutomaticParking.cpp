@@ -2,6 +2,7 @@
 
 #include "automatic_parking/Replanning.h"
 #include "automatic_parking/Stopwatch.h"
+#include "automatic_parking/perception/ExtendedObstacles.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
@@ -33,8 +34,8 @@ namespace parking
         /** Minimum distance in metres that the guard keeps: poses are not known more accurately. */
         constexpr double MIN_GAP = 0.005;
 
-        /** Expansions per gap of a search on seen ground, which may not reach the goal. */
-        constexpr std::uint64_t EXPANSIONS_ON_SEEN_GROUND = 500;
+        /** Expansions per gap of a search round extended obstacles, which may close the way to the goal. */
+        constexpr std::uint64_t EXPANSIONS_ROUND_EXTENSIONS = 500;
 
         /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
         constexpr double TIME_TO_DECIDE = 1.0;
@@ -97,7 +98,8 @@ namespace parking
             Scenario placed = scenario_;
             placed.start = start;
             seen_ = std::make_unique<PerceivedWorld>(placed, perception, parameters);
-            seen_->observe(0.0, start);
+            result_.history.map = seen_->map();
+            remember(0.0, seen_->observe(0.0, start));
             const Pose nominal = scenario_.start;
             scenario_ = seen_->scenario();
             scenario_.start = nominal;
@@ -105,6 +107,12 @@ namespace parking
             Scenario closed = scenario_;
             closed.unknownIsOccupied = true;
             closed_ = ParkingWorld(closed, fclContactTest(), IndexedObstacles::LOCAL_REACH);
+            if (parameters.obstacleExtension == 0.0)
+                return;
+            extension_ = std::make_unique<ExtendedObstacles>(seen_->scenario(), parameters.obstacleExtension);
+            Scenario extended = scenario_;
+            extended.grid = extension_->map();
+            extended_ = ParkingWorld(extended, fclContactTest(), IndexedObstacles::LOCAL_REACH);
         }
 
         ParkingResult park(const std::optional<Pose> &start)
@@ -128,6 +136,7 @@ namespace parking
                     break;
                 }
                 goal_ = leg.plan.goal;
+                result_.history.plans.push_back({time_, leg.plan.path});
                 if (leg.plan.path.pieces.empty())
                 {
                     result_.legs.push_back(std::move(leg));
@@ -169,6 +178,7 @@ namespace parking
                 truth = path.start;
                 goal_ = leg.plan.goal = path.end();
                 leg.plan.clearance = minClearance(world_.footprint(), path);
+                result_.history.plans.push_back({0.0, path});
             }
             const bool driven = drive(leg, truth, 0);
             result_.legs.push_back(std::move(leg));
@@ -192,6 +202,13 @@ namespace parking
         void note(double time, const std::string &event)
         {
             result_.events.push_back(rounded(time, 1e-3) + " s: " + event);
+        }
+
+        /** Adds a frame to the history of the drive. */
+        void remember(double time, const GridUpdate &changes)
+        {
+            if (!changes.empty())
+                result_.history.frames.push_back({time, changes});
         }
 
         void finish(ParkingStatus status, const std::string &message)
@@ -259,19 +276,19 @@ namespace parking
             return quickestTrajectory(planWorld_->footprint(), scenario_.bounds, plan.path, options, interrupted);
         }
 
-        /** A plan from scenario_.start: on seen ground, if that suffices. Unseen ground often holds obstacles. */
+        /** A plan from scenario_.start: round the expected continuations of seen obstacles, if there is one. */
         ParkingPlan planned(const PlanningParameters &parameters)
         {
             planWorld_ = &world_;
-            if (closed_)
+            if (extended_)
             {
                 PlanningParameters careful = parameters;
-                careful.expansionsPerGap = std::min(careful.expansionsPerGap, EXPANSIONS_ON_SEEN_GROUND);
+                careful.expansionsPerGap = std::min(careful.expansionsPerGap, EXPANSIONS_ROUND_EXTENSIONS);
                 careful.timeLimit = std::numeric_limits<double>::infinity();
-                ParkingPlan plan = ParkingPlanner(careful).plan(scenario_, *closed_);
+                ParkingPlan plan = ParkingPlanner(careful).plan(scenario_, *extended_);
                 if (plan.found)
                 {
-                    planWorld_ = &*closed_;
+                    planWorld_ = &*extended_;
                     return plan;
                 }
             }
@@ -512,6 +529,7 @@ namespace parking
             note(reaction.time, (blocked.empty() ? "the map has changed" : blocked) + ": " + found.plan.message +
                                     (found.stops ? ", after braking" : ", in motion"));
             goal_ = found.plan.goal;
+            result_.history.plans.push_back({reaction.time, found.plan.path});
             leg.plan = std::move(found.plan);
             leg.trajectory = std::move(found.trajectory);
             leg.trajectory->trajectory.motion = found.motion;
@@ -538,6 +556,9 @@ namespace parking
             {
                 world_.update(update);
                 closed_->update(update);
+                if (extended_)
+                    extended_->update(extension_->update(update));
+                remember(time, update);
             }
             duration = updating.seconds();
             return change;
@@ -652,6 +673,8 @@ namespace parking
         bool hopeless_{false};                              // whether planning again is useless
         std::unique_ptr<PerceivedWorld> seen_;              // null if the world is known
         std::optional<ParkingWorld> truth_, closed_;        // of a perceived world: the true one, and the seen ground
+        std::unique_ptr<ExtendedObstacles> extension_;      // expected obstacles on unseen ground; null without them
+        std::optional<ParkingWorld> extended_;              // the perceived world with them
         std::shared_ptr<const FootprintChecker> enlarged_;  // the body with its clearance while stopping
         std::shared_ptr<const FootprintChecker> withGap_;   // the same where the car plans, on unseen ground, too
         const ParkingWorld *planWorld_{&world_};            // of the latest plan
@@ -694,6 +717,26 @@ namespace parking
     {
         const MapUpdate none;
         return Session(parameters_, none, scenario).follow(path);
+    }
+
+    ReactionFigures reactionFigures(const ParkingResult &result)
+    {
+        ReactionFigures figures;
+        figures.stops = result.legs.empty() ? 0 : result.legs.size() - 1;
+        std::vector<double> checks, motions;
+        for (const Reaction &reaction : result.reactions)
+        {
+            const double checked = reaction.updateTime + reaction.checkTime;
+            checks.push_back(checked);
+            if (reaction.kind == ReactionKind::Kept || reaction.kind == ReactionKind::Stopped)
+                continue;
+            motions.push_back(checked + reaction.planningTime);
+            figures.stops += reaction.kind == ReactionKind::Braked ? 1 : 0;
+        }
+        figures.newMotions = motions.size();
+        figures.check = timeStatistics(std::move(checks));
+        figures.motion = timeStatistics(std::move(motions));
+        return figures;
     }
 
     Evaluation combined(const std::vector<Evaluation> &drives)

@@ -2,6 +2,7 @@
 
 #include "automatic_parking/ParkingPlanner.h"
 #include "automatic_parking/QuickestTrajectory.h"
+#include "automatic_parking/perception/DriveHistory.h"
 #include "automatic_parking/perception/PerceivedWorld.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
@@ -121,6 +122,7 @@ namespace parking
         std::vector<std::string> events;
 
         std::vector<Reaction> reactions;  ///< to changes of the world, in order of time
+        DriveHistory history;             ///< what the car has seen and planned
     };
 
     /** \brief The whole pipeline of the paper in one call: it plans, smooths and drives in a given map, for a given
@@ -163,8 +165,9 @@ namespace parking
         /** \brief Sets the sensors of the car. The obstacles of a scenario then serve only for the collision check of
             the simulated drive; the car knows what it has perceived.
 
-            The car plans on ground that it has not seen, unless \e parameters forbid it. It drives only as fast as it
-            can stop on ground that it has seen. A perception that throws leads to a safe stop.
+            The car plans on ground that it has not seen, unless \e parameters forbid it, and round the expected
+            continuations of seen obstacles, if such a plan exists. It drives only as fast as it can stop on ground that
+            it has seen. A perception that throws leads to a safe stop.
 
             \param perception one per drive, since it has a clock; null removes it
             Throws parking::Error for invalid parameters. */
@@ -189,6 +192,18 @@ namespace parking
         std::shared_ptr<Perception> perception_;
         PerceptionParameters perceptionParameters_;
     };
+
+    /** \brief How a car has reacted to changes of the world during a drive. */
+    struct ReactionFigures
+    {
+        std::size_t stops{0};       ///< stops to plan, on the way and between legs
+        std::size_t newMotions{0};  ///< motions that have replaced the driven one
+        TimeStatistics check;       ///< seconds, of all changes: to take over the change and to check the driven motion
+        TimeStatistics motion;      ///< seconds, of new motions: the same and planning
+    };
+
+    /** \brief The figures of all reactions of a drive. */
+    ReactionFigures reactionFigures(const ParkingResult &result);
 
     /** \brief Combines the figures of several consecutive drives into those of one drive. */
     Evaluation combined(const std::vector<Evaluation> &drives);

@@ -62,7 +62,7 @@ try
     const std::string title = "Driving into a slot: " + scenario.name;
     const parking::Path &planned = result.legs.back().plan.path;
     parking::driveFigure(scenario, planned, result.trajectory, title, text).write("drive_into_slot.svg");
-    parking::writeDriveAnimation("drive_into_slot.html", scenario, planned, result.trajectory, title, text);
+    parking::writeDriveAnimation("drive_into_slot.html", scenario, planned, result.trajectory, title, {text, {}, {}});
     return 0;
 }
 catch (const std::exception &error)

@@ -1,6 +1,7 @@
 // Driving by what a sensor sees: the car knows nothing of a lot but what its sensor has seen, and a box falls in front
-// of it. It continues in motion on another trajectory.
+// of it. It continues in motion on another trajectory. A page shows what it sees and plans on the way.
 #include "automatic_parking/AutomaticParking.h"
+#include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/perception/SimulatedSensor.h"
 
 #include <cstdio>
@@ -31,6 +32,8 @@ try
         std::cout << event << '\n';
     std::printf("%.1f m in %.1f s, %zu changes of what is seen\n", result.evaluation.drivenLength,
                 result.evaluation.travelTime, result.reactions.size());
+    parking::writeDriveAnimation("drive_with_sensor.html", truth, {}, result.trajectory, truth.name,
+                                 {"what the car sees and plans on the way", {}, result.history});
     return result.parked() ? 0 : 1;
 }
 catch (const std::exception &error)

@@ -20,6 +20,8 @@ namespace parking
         constexpr double RIGHT_OF_FRAME = 16.0;  // pixels for half of the last tick's label
         constexpr double PLOT_WIDTH = 944.0;     // pixels
         constexpr double PLAN_OPACITY = 0.55, PLAN_UNDER_TRAJECTORY = 0.25;
+        // Colours of perceived cells, which the page uses, too.
+        constexpr const char *UNSEEN = "#94a3b8", *SEEN = "#475569", *RECENT = "#eab308";
 
         // The page with placeholders for the data of a drive.
         const char *const PAGE =
@@ -122,6 +124,91 @@ namespace parking
             return text;
         }
 
+        std::string rowOf(const std::vector<double> &values)
+        {
+            std::string text;
+            for (const double value : values)
+                text += (text.empty() ? "[" : ",") + number(value);
+            return text.empty() ? "[]" : text + "]";
+        }
+
+        /** The changes of a frame as runs of equal cells: first cell, number of cells, occupancy. */
+        std::vector<double> runsOf(const GridUpdate &changes, std::size_t width)
+        {
+            std::vector<double> runs;
+            for (const CellChange &change : changes)
+            {
+                const double cell = static_cast<double>(change.row * width + change.column);
+                const auto occupancy = static_cast<double>(change.cell);
+                const std::size_t size = runs.size();
+                if (size > 0 && runs[size - 1] == occupancy && runs[size - 3] + runs[size - 2] == cell)
+                    ++runs[size - 2];
+                else
+                    runs.insert(runs.end(), {cell, 1.0, occupancy});
+            }
+            return runs;
+        }
+
+        /** The map before the first frame, and the changes of each one; null for a known world. */
+        std::string seenJson(const DriveHistory &history)
+        {
+            const OccupancyGrid &map = history.map;
+            if (map.cells().empty())
+                return "null";
+            GridUpdate known;
+            for (std::uint32_t row = 0; row < map.height(); ++row)
+                for (std::uint32_t column = 0; column < map.width(); ++column)
+                    if (map.at(column, row) != Cell::Unknown)
+                        known.push_back({column, row, map.at(column, row)});
+            std::string frames = "[[-1," + rowOf(runsOf(known, map.width())) + "]";
+            for (const SeenFrame &frame : history.frames)
+                frames += ",\n[" + number(frame.time) + "," + rowOf(runsOf(frame.changes, map.width())) + "]";
+            const Pose &origin = map.origin();
+            return "{\"width\":" + std::to_string(map.width()) + ",\"height\":" + std::to_string(map.height()) +
+                   ",\"cell\":" + formatNumber(map.resolution()) +
+                   ",\"origin\":" + rowOf({origin.x, origin.y, origin.yaw}) + ",\n\"frames\":" + frames + "]}";
+        }
+
+        /** The plans of a drive: time, and x and y of each point. */
+        std::string plansJson(const std::vector<TimedPlan> &plans)
+        {
+            std::string text;
+            for (const TimedPlan &plan : plans)
+            {
+                std::vector<double> points;
+                if (!plan.path.pieces.empty())
+                    for (const PathState &state : plan.path.sample(DRAWN_STEP))
+                        points.insert(points.end(), {state.pose.x, state.pose.y});
+                text += (text.empty() ? "[" : ",\n[") + number(plan.time) + "," + rowOf(points) + "]";
+            }
+            return "[" + text + "]";
+        }
+
+        SvgStyle latestPlanStyle()
+        {
+            SvgStyle style;
+            style.stroke = svg_colour::FORWARD;
+            style.strokeWidth = 2.5;
+            return style;
+        }
+
+        void addHistoryLegend(SvgMap &map, const DriveHistory &history)
+        {
+            if (!history.plans.empty())
+                map.addLegend({"latest plan", latestPlanStyle(), SvgSample::Line});
+            if (history.map.cells().empty())
+                return;
+            const auto add = [&map](const char *label, const char *colour)
+            {
+                SvgStyle style;
+                style.fill = colour;
+                map.addLegend({label, style, SvgSample::Box});
+            };
+            add("not seen yet", UNSEEN);
+            add("seen obstacle", SEEN);
+            add("seen in the last half second", RECENT);
+        }
+
         void replace(std::string &text, const std::string &mark, const std::string &value)
         {
             for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
@@ -130,8 +217,10 @@ namespace parking
     }  // namespace
 
     std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
-                               const std::string &title, const std::string &subtitle, const Trajectory &reference)
+                               const std::string &title, const DriveDetails &details)
     {
+        const Trajectory &reference = details.reference;
+        const DriveHistory &history = details.history;
         checkDrive(driven);
         if (!reference.empty())
             checkDrive(reference);
@@ -141,9 +230,11 @@ namespace parking
             seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
-        drawPlan(map, states, reference.empty() ? PLAN_OPACITY : PLAN_UNDER_TRAJECTORY);
+        if (history.plans.empty())
+            drawPlan(map, states, reference.empty() ? PLAN_OPACITY : PLAN_UNDER_TRAJECTORY);
         if (!reference.empty())
             drawReference(map, reference);
+        addHistoryLegend(map, history);
 
         const Vehicle &car = scenario.vehicle;
         std::string data = "{";
@@ -166,6 +257,9 @@ namespace parking
         for (const Eigen::Vector2d &corner : car.outline)
             outline += (outline.empty() ? "[" : ",[") + formatNumber(corner.x()) + "," + formatNumber(corner.y()) + "]";
         add("outline", "[" + outline + "]");
+        add("seen", seenJson(history));
+        add("plans", plansJson(history.plans));
+        add("colours", std::string("[\"") + UNSEEN + "\",\"" + SEEN + "\",\"" + RECENT + "\"]");
         add("plotLeft", number(SvgPlot::LEFT));
         add("plotRight", number(PLOT_WIDTH - SvgPlot::RIGHT));
         data += "}";
@@ -179,6 +273,8 @@ namespace parking
                 "matrix(" + formatNumber(map.scale()) + " 0 0 " + formatNumber(-map.scale()) + " " +
                     formatNumber(-map.scale() * map.view().min.x()) + " " +
                     formatNumber(map.scale() * map.view().max.y()) + ")");
+        replace(page, "@FRAME@", "width=\"" + px(map.width()) + "\" height=\"" + px(map.height()) + "\"");
+        replace(page, "@LATEST@", svg_colour::FORWARD);
         replace(page, "@DRIVEN@", svg_colour::DRIVEN);
         replace(page, "@DARK@", darkTheme());
         replace(page, "@DATA@", data);
@@ -186,14 +282,14 @@ namespace parking
         replace(page, "@LEGEND@", legendOf(map));
         replace(page, "@PLOTS@", plotsOf(driven, car, reference));
         // User text comes last, so that no placeholder in it is replaced.
-        replace(page, "@SUBTITLE@", escaped(subtitle));
+        replace(page, "@SUBTITLE@", escaped(details.subtitle));
         replace(page, "@TITLE@", escaped(title));
         return page;
     }
 
     void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
-                             const Trajectory &driven, const std::string &title, const std::string &subtitle)
+                             const Trajectory &driven, const std::string &title, const DriveDetails &details)
     {
-        writeFileAtomically(file, driveAnimation(scenario, planned, driven, title, subtitle));
+        writeFileAtomically(file, driveAnimation(scenario, planned, driven, title, details));
     }
 }  // namespace parking

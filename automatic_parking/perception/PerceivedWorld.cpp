@@ -17,6 +17,8 @@ namespace parking
 {
     namespace
     {
+        constexpr double MAX_EXTENSION = 10.0;  // metres; a farther one makes updates slow
+
         std::size_t cellsAlong(double length, double cellSize)
         {
             // Whole cells only: the rest lies outside of the map and counts as an obstacle.
@@ -44,7 +46,10 @@ namespace parking
 
     void PerceptionParameters::validate() const
     {
-        Require("perception").positive("cellSize", cellSize, "metres");
+        const Require require("perception");
+        require.positive("cellSize", cellSize, "metres");
+        require.that(obstacleExtension >= 0.0 && obstacleExtension <= MAX_EXTENSION, "obstacleExtension",
+                     obstacleExtension, "from 0 to " + formatNumber(MAX_EXTENSION) + " metres");
     }
 
     PerceivedWorld::PerceivedWorld(const Scenario &truth, std::shared_ptr<Perception> perception,

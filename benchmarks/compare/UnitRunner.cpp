@@ -4,6 +4,7 @@
 #include "benchmarks/metrics/DriveMetrics.h"
 #include "benchmarks/metrics/PathMetrics.h"
 #include "benchmarks/metrics/PeakMemory.h"
+#include "benchmarks/plan/PerceivedDrive.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/system/ProcessorTime.h"
@@ -159,6 +160,34 @@ namespace parking
             {
                 // A path that cannot be driven is a valid result, too.
             }
+        }
+
+        /** Drives of the whole pipeline: with a known map, and by what a sensor sees, in motion and stopping to plan.
+         */
+        void perceive(RunRecord &record, const Scenario &scenario, const SensorParameters &sensor)
+        {
+            const auto time = [&record](const std::string &column, const ParkingResult &drive)
+            {
+                if (drive.parked())
+                    record.set(column, drive.trajectory.back().t);
+            };
+            time("known drive time", AutomaticParking().park(scenario));
+            const ParkingResult stopping = perceivedDrive(scenario, sensor, true);
+            time("stopping drive time", stopping);
+            record.set("stopping stops", reactionFigures(stopping).stops);
+            const ParkingResult drive = perceivedDrive(scenario, sensor);
+            const ReactionFigures figures = reactionFigures(drive);
+            record.set("perceived parked", drive.parked());
+            time("perceived drive time", drive);
+            record.set("perceived stops", figures.stops);
+            record.set("perceived new motions", figures.newMotions);
+            record.set("perceived least clearance", drive.evaluation.minClearance);
+            record.set("median reaction time", figures.check.median);
+            record.set("p99 reaction time", figures.check.p99);
+            if (figures.newMotions == 0)
+                return;
+            record.set("median new motion time", figures.motion.median);
+            record.set("max new motion time", figures.motion.max);
         }
 
         /** The fastest trajectory near the path. */
@@ -487,5 +516,7 @@ namespace parking
             track(record, world, *run.path);
         if (config_.trajectory)
             optimize(record, world, *run.path);
+        if (config_.perceive && prepared.improved() != nullptr && world.isDrivable())
+            perceive(record, world.scenario(), *config_.perceive);
     }
 }  // namespace parking

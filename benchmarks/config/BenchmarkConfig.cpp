@@ -1,5 +1,6 @@
 #include "benchmarks/config/BenchmarkConfig.h"
 
+#include "benchmarks/plan/PerceivedDrive.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -292,6 +293,7 @@ namespace parking
             {"simplify", into(&Config::simplify, switchNamed)},
             {"track", into(&Config::track, switchNamed)},
             {"trajectory", into(&Config::trajectory, switchNamed)},
+            {"perceive", into(&Config::perceive, sensorOf)},
             {"clock", into(&Config::processorTime, isProcessorClock)}};
 
         /** Sentence that names the replacement of a key of OMPL.app's files; empty for other keys. */

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "automatic_parking/perception/SimulatedSensor.h"
 #include "benchmarks/plan/Problem.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 
@@ -62,6 +63,8 @@ namespace parking
         bool simplify{false};        ///< whether OMPL also simplifies each path, reported in columns of its own
         bool track{false};           ///< whether the controller drives each path
         bool trajectory{false};      ///< whether each path is optimised in time
+        /** The sensor of further drives by the whole pipeline, in which the car knows only what it has seen. */
+        std::optional<SensorParameters> perceive{};
         std::vector<PlannerSpec> planners;  ///< planners in the order of the file
         std::map<std::string, std::string>
             problemLines{};  ///< "FILE:LINE: " of the keys of [problem], by "problem.KEY"

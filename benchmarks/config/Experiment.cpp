@@ -333,10 +333,12 @@ namespace parking
 
     std::string fingerprint(const BenchmarkConfig &config)
     {
-        return hexadecimal(hash(formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
-                                std::to_string(config.seed) + (config.simplify ? "/s" : "/") +
-                                (config.track ? "/t" : "/") + (config.processorTime ? "p" : "") +
-                                (config.trajectory ? "q" : "")));
+        return hexadecimal(hash(
+            formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
+            std::to_string(config.seed) + (config.simplify ? "/s" : "/") + (config.track ? "/t" : "/") +
+            (config.processorTime ? "p" : "") + (config.trajectory ? "q" : "") +
+            (config.perceive ? "v" + formatNumber(config.perceive->range) + "," + formatNumber(config.perceive->rate)
+                             : "")));
     }
 
     std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner)

@@ -1,8 +1,10 @@
 #include "benchmarks/plan/PlanOptions.h"
 
+#include "benchmarks/plan/PerceivedDrive.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/text/Text.h"
 
 #include <limits>
 #include <sstream>
@@ -35,6 +37,9 @@ namespace parking
             add("track",
                 "drive with the model predictive controller: the trajectory, or without --trajectory the path, "
                 "stopping at each jump of its curvature");
+            add("perceive", oneValue("RANGE[,RATE]"),
+                "with --track: the car knows only what a sensor of this range in metres has seen, with RATE frames "
+                "per second (default 20), and plans on the way");
             add("json", oneValue("FILE|-"), "write the result; - for standard output");
             add("svg", oneValue("FILE"), "draw the result");
             add("csv", oneValue("FILE"), "with --trajectory: write it as a table t,x,y,yaw,v,a,steering,steering_rate");
@@ -90,12 +95,18 @@ namespace parking
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");
         result.track = line.given("track");
+        if (const auto sensor = line.text("perceive"))
+            result.perceive = sensorOf("--perceive", *sensor);
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");
         result.html = line.outputFile("html").value_or("");
         result.csv = line.outputFile("csv").value_or("");
         if (line.given("csv") && !result.trajectory)
             throw Error("--csv writes the trajectory: it requires --trajectory");
+        if (result.perceive && !result.track)
+            throw Error("--perceive is about the drive: it requires --track");
+        if (result.perceive && result.planner != "improved_astar")
+            throw Error("--perceive plans on the way with improved_astar, not with " + inQuotes(result.planner));
         if (line.given("html") && !result.track)
             throw Error("--html shows the drive: it requires --track");
         return result;
@@ -109,7 +120,8 @@ namespace parking
                 "parking_convert converts scenarios of other formats (docs/scenarios.md).\n\n"
                 "Examples, run at the root of the project:\n"
                 "  parking_plan benchmarks/scenarios/narrow_parallel.yaml --svg path.svg\n"
-                "  parking_plan benchmarks/scenarios/parallel.yaml --trajectory --track --html drive.html\n\n"
+                "  parking_plan benchmarks/scenarios/parallel.yaml --trajectory --track --html drive.html\n"
+                "  parking_plan benchmarks/scenarios/parallel.yaml --track --perceive 20 --html drive.html\n\n"
              << describe() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 20 ? 22 - each.name.size() : 2, ' ')

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "automatic_parking/perception/SimulatedSensor.h"
 #include "benchmarks/plan/Problem.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 
@@ -26,11 +27,13 @@ namespace parking
         std::uint_fast32_t seed{1};              ///< seed of the first run; each further run has the next number
         bool trajectory{false};                  ///< whether to optimise the path in time
         bool track{false};                       ///< whether to drive the trajectory, or the path without one
-        std::string json;                        ///< JSON file; "-": standard output, empty: none
-        std::string svg;                         ///< picture; empty: none
-        std::string csv;                         ///< table of the trajectory, with `trajectory` only; empty: none
-        std::string html;                        ///< page of the drive, with `track` only; empty: none
-        std::vector<std::string> plugins;        ///< libraries whose planners are loaded
+        /** With `track` only: the sensor of a car that does not know its world. The whole pipeline then drives. */
+        std::optional<SensorParameters> perceive;
+        std::string json;                  ///< JSON file; "-": standard output, empty: none
+        std::string svg;                   ///< picture; empty: none
+        std::string csv;                   ///< table of the trajectory, with `trajectory` only; empty: none
+        std::string html;                  ///< page of the drive, with `track` only; empty: none
+        std::vector<std::string> plugins;  ///< libraries whose planners are loaded
 
         /** \brief All files that the options write. */
         std::vector<std::string> outputFiles() const;

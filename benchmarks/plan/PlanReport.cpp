@@ -3,6 +3,7 @@
 #include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
+#include "benchmarks/plan/PerceivedDrive.h"
 #include "benchmarks/system/Counted.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
@@ -80,6 +81,11 @@ namespace parking
             return count ? json(*count) : json(nullptr);
         }
 
+        json timesJson(const TimeStatistics &times)
+        {
+            return {{"median", MS * times.median}, {"p99", MS * times.p99}, {"max", MS * times.max}};
+        }
+
         json trackingJson(const PlanReport &result)
         {
             if (!result.drive)
@@ -96,11 +102,32 @@ namespace parking
                     {"final_yaw_error_rad", figures.finalYawError},
                     {"corner_deviation_m", figures.cornerDeviation},
                     {"min_clearance_m", number(figures.minClearance)},
-                    {"mpc_solve_ms",
-                     {{"median", MS * figures.solveTime.median},
-                      {"p99", MS * figures.solveTime.p99},
-                      {"max", MS * figures.solveTime.max}}},
+                    {"mpc_solve_ms", timesJson(figures.solveTime)},
                     {"collisions", figures.collisions}};
+        }
+
+        json perceptionJson(const SensorParameters &sensor, const ParkingResult &drive)
+        {
+            const ReactionFigures figures = reactionFigures(drive);
+            return {{"range_m", sensor.range},
+                    {"rate_hz", sensor.rate},
+                    {"stops", figures.stops},
+                    {"new_motions", figures.newMotions},
+                    {"check_ms", timesJson(figures.check)},
+                    {"new_motion_ms", timesJson(figures.motion)},
+                    {"events", drive.events}};
+        }
+
+        /** Text such as "2 stops and 3 new motions, found in 24 ms (median) to 80 ms". */
+        std::string perceptionText(const ParkingResult &drive)
+        {
+            const ReactionFigures figures = reactionFigures(drive);
+            std::string text =
+                counted(figures.stops, "stop") + " to plan and " + counted(figures.newMotions, "new motion");
+            if (figures.newMotions > 0)
+                text += ", found in " + formatNumber(MS * figures.motion.median, 0) + " ms (median) to " +
+                        formatNumber(MS * figures.motion.max, 0) + " ms";
+            return text + "; checks take " + formatNumber(MS * figures.check.median, 1) + " ms";
         }
 
         /** Text such as "1.20 m, 2 changes of direction, least clearance 0.123 m". */
@@ -291,6 +318,8 @@ namespace parking
             return text;
         if (run.path)
             text["tracking"] = trackingJson(result);
+        if (result.perceived)
+            text["perception"] = perceptionJson(*options.perceive, *result.perceived);
         text["trajectory"] = result.drive ? trajectoryJson(scenario, result.drive->trajectory, false) : json::array();
         return text;
     }
@@ -333,7 +362,9 @@ namespace parking
             text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
             text += "  driven: " + driveSummary(*result.drive) + "\n";
-        else if (!result.driveError.empty())
+        if (result.perceived)
+            text += "  perceived on the way: " + perceptionText(*result.perceived) + "\n";
+        if (!result.driveError.empty())
             text += "  not driven: " + result.driveError + "\n";
         return text;
     }
@@ -404,7 +435,7 @@ namespace parking
         return toCsv(trajectory);
     }
 
-    void addDrive(const Problem &problem, PlanReport &result)
+    void addDrive(const Problem &problem, PlanReport &result, const std::optional<SensorParameters> &perceive)
     {
         const PlanRun &run = result.first();
         if (!run.path)
@@ -417,6 +448,17 @@ namespace parking
         }
         try
         {
+            if (perceive)
+            {
+                result.perceived = perceivedDrive(problem.scenario(), *perceive);
+                const ParkingResult &drive = *result.perceived;
+                if (drive.trajectory.empty())
+                    result.driveError = drive.message;
+                else
+                    result.drive = DriveResult{
+                        drive.parked(), drive.message, drive.trajectory, {}, drive.events, drive.evaluation, {}};
+                return;
+            }
             const ClosedLoop loop = problem.closedLoop();
             result.drive =
                 result.trajectory ? loop.follow(result.trajectory->trajectory.motion) : loop.drive(run.path->path);
@@ -434,9 +476,9 @@ namespace parking
             throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
         const Evaluation &figures = result.drive->evaluation;
         return driveAnimation(scenario, result.first().path->path, result.drive->trajectory, scenario.name,
-                              result.planner + ", " + formatNumber(figures.drivenLength, 1) + " m in " +
-                                  formatNumber(figures.travelTime, 1) + " s, ends " +
-                                  formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
-                              result.samples);
+                              {result.planner + ", " + formatNumber(figures.drivenLength, 1) + " m in " +
+                                   formatNumber(figures.travelTime, 1) + " s, ends " +
+                                   formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
+                               result.samples, result.perceived ? result.perceived->history : DriveHistory()});
     }
 }  // namespace parking

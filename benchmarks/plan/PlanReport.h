@@ -1,5 +1,6 @@
 #pragma once
 
+#include "automatic_parking/AutomaticParking.h"
 #include "automatic_parking/QuickestTrajectory.h"
 #include "benchmarks/plan/PlanOptions.h"
 #include "benchmarks/plan/PlanRun.h"
@@ -16,11 +17,12 @@ namespace parking
     /** \brief All results of parking_plan. */
     struct PlanReport
     {
-        std::string planner;               ///< name in the registry
-        nlohmann::json parameters;         ///< all parameters of the planner, see parametersJson()
-        std::vector<PlanRun> runs;         ///< at least one run; the path of the first is the result
-        std::optional<DriveResult> drive;  ///< the drive, with PlanOptions::track unless driveError is set
-        std::string driveError;            ///< reason why the path cannot be driven; otherwise empty
+        std::string planner;                     ///< name in the registry
+        nlohmann::json parameters;               ///< all parameters of the planner, see parametersJson()
+        std::vector<PlanRun> runs;               ///< at least one run; the path of the first is the result
+        std::optional<DriveResult> drive;        ///< the drive, with PlanOptions::track unless driveError is set
+        std::optional<ParkingResult> perceived;  ///< the same drive in detail, with PlanOptions::perceive
+        std::string driveError;                  ///< reason why the path cannot be driven; otherwise empty
         /** The trajectory, with PlanOptions::trajectory unless trajectoryError is set. */
         std::optional<QuickestTrajectory> trajectory;
         Trajectory samples;           ///< samples of the trajectory; empty without one
@@ -69,8 +71,10 @@ namespace parking
 
     /** \brief Drives the trajectory of the first run in closed loop, or its path when no trajectory was requested.
 
-        The result stores the reason of a failure, such as a missing trajectory. */
-    void addDrive(const Problem &problem, PlanReport &result);
+        The result stores the reason of a failure, such as a missing trajectory.
+        \param perceive sensor of a car that does not know its world and plans on the way; absent for a known world */
+    void addDrive(const Problem &problem, PlanReport &result,
+                  const std::optional<SensorParameters> &perceive = std::nullopt);
 
     /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error without a drive. */
     std::string resultHtml(const Problem &problem, const PlanReport &result);

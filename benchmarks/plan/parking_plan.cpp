@@ -67,7 +67,7 @@ namespace
         if (options.track)
         {
             const LongStep step("driving");
-            addDrive(problem, result);
+            addDrive(problem, result, options.perceive);
         }
 
         if (!options.svg.empty())

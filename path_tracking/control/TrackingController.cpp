@@ -20,6 +20,7 @@ namespace parking
         constexpr double STEERING_WAIT_LIMIT = 2.0;  // seconds of waiting for wheels without progress
         constexpr double MIN_PROGRESS = 1e-4;        // radians per period that count as progress
         constexpr double NO_TIME = 1e-9;             // seconds
+        constexpr double BETWEEN_EVENTS = 1.0;       // seconds without a refused command before one is reported again
         constexpr double SAME = 1e-3;                // metres, radians, m/s and seconds between equal references
 
         double towards(double from, double to, double most)
@@ -559,12 +560,14 @@ namespace parking
         if (guard_(step))
         {
             refused_ = 0.0;
+            allowed_ += parameters_.mpc.step;
             return;
         }
         const CarState car = response_.ahead();
         step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
-        if (refused_ == 0.0 && step.event.empty())
+        if (allowed_ >= BETWEEN_EVENTS && step.event.empty())
             step.event = "slowing down: the path to a stop is not free";
+        allowed_ = 0.0;
         if (std::abs(estimator().speed()) <= STANDING)
             refused_ += parameters_.mpc.step;
         if (refused_ < parameters_.guardWaitLimit)

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -204,9 +205,10 @@ namespace parking
         double wheelsOff_{0.0};  // radians between the wheels and where the leg begins, a period ago
         bool started_{false};
         double s_{0.0};
-        double beyond_{0.0};   // metres past an end of the leg
-        MpcControl last_;      // commanded in the last period
-        double refused_{0.0};  // seconds that the guard has kept the car standing
+        double beyond_{0.0};                                       // metres past an end of the leg
+        MpcControl last_;                                          // commanded in the last period
+        double refused_{0.0};                                      // seconds that the guard has kept the car standing
+        double allowed_{std::numeric_limits<double>::infinity()};  // seconds since the guard refused a command
         std::vector<MpcControl> plan_;
         std::size_t planAge_{0};
         int failures_{0};

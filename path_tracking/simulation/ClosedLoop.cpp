@@ -19,19 +19,6 @@ namespace parking
         /** Time limit of a drive: this multiple of the planned time, plus seconds. */
         constexpr double TIME_RATIO = 2.0, EXTRA_TIME = 60.0;
 
-        TimeStatistics timeStatistics(std::vector<double> values)
-        {
-            if (values.empty())
-                return {};
-            std::sort(values.begin(), values.end());
-            const auto rank = [&values](double share)
-            {
-                const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-                return values[std::max<std::size_t>(n, 1) - 1];
-            };
-            return {rank(0.5), rank(0.99), values.back()};
-        }
-
         /** Computes the figures of a drive as it proceeds. */
         class Recorder
         {
@@ -141,6 +128,19 @@ namespace parking
             double accelerationTime_{0.0}, steeringTime_{0.0}, crossTrackTime_{0.0};
         };
     }  // namespace
+
+    TimeStatistics timeStatistics(std::vector<double> values)
+    {
+        if (values.empty())
+            return {};
+        std::sort(values.begin(), values.end());
+        const auto rank = [&values](double share)
+        {
+            const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+            return values[std::max<std::size_t>(n, 1) - 1];
+        };
+        return {rank(0.5), rank(0.99), values.back()};
+    }
 
     void ClosedLoopParameters::validate() const
     {

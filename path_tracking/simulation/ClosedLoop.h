@@ -34,6 +34,9 @@ namespace parking
         double max{0.0};     ///< in the unit of the values
     };
 
+    /** \brief The statistics of \e values in any order. */
+    TimeStatistics timeStatistics(std::vector<double> values);
+
     /** \brief The paper's evaluation parameters of a drive ("Evaluation Parameters"), and further figures.
 
         The planner measures its own planning time. The paper leaves its averages undefined. Here every average is over

@@ -73,7 +73,7 @@ namespace parking::python
                 point.x -= scenario.worldOffset.x();
                 point.y -= scenario.worldOffset.y();
             }
-            return driveAnimation(scenario, self.path(), local, title, subtitle);
+            return driveAnimation(scenario, self.path(), local, title, {subtitle, {}, {}});
         }
     }  // namespace
 

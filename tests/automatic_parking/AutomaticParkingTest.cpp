@@ -1,8 +1,10 @@
 #include "automatic_parking/AutomaticParking.h"
 
 #include "automatic_parking/drawing/DriveAnimation.h"
+#include "automatic_parking/perception/ExtendedObstacles.h"
 #include "automatic_parking/perception/SimulatedSensor.h"
 #include "parking_geometry/Error.h"
+#include "state_validity/sweeps/PathSweep.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 #include "tests/support/ExpectRefused.h"
 
@@ -121,6 +123,75 @@ namespace
             EXPECT_EQ(result.evaluation.collisions, 0u);
             EXPECT_GT(result.evaluation.checkedPoses, 100u);
             expectLegal(result, scenario.vehicle);
+        }
+    }
+
+    TEST(AutomaticParkingTest, plansRoundTheUnseenPartsOfObstacles)
+    {
+        // The car sees the near side of a thick wall. Behind it, the shortest way to the goal leads through the wall.
+        Scenario scenario = openGround(30.0);
+        scenario.polygons = {box(8.0, -15.0, 11.0, 1.5)};
+        scenario.goals = {{18.0, -9.0, -0.5 * PI}};
+        for (const double extension : {0.0, 3.0})
+        {
+            PerceptionParameters perception;
+            perception.obstacleExtension = extension;
+            AutomaticParking parking;
+            parking.setPerception(std::make_shared<SimulatedSensor>(scenario), perception);
+            const ParkingResult result = parking.park(scenario);
+            ASSERT_TRUE(result.parked()) << result.message;
+            EXPECT_EQ(result.evaluation.collisions, 0u);
+            Scenario seen = scenario;
+            seen.polygons.clear();
+            seen.unknownIsOccupied = false;
+            seen.grid = result.history.map;
+            ASSERT_FALSE(result.history.frames.empty());
+            ASSERT_EQ(result.history.frames.front().time, 0.0);
+            seen.grid->apply(result.history.frames.front().changes);
+            const Path first = result.history.plans.front().path;
+            EXPECT_TRUE(isPathFree(ParkingWorld(seen).footprint(), first));
+            seen.grid = ExtendedObstacles(seen, 3.0).map();
+            EXPECT_EQ(isPathFree(ParkingWorld(seen).footprint(), first), extension > 0.0);
+        }
+    }
+
+    TEST(AutomaticParkingTest, remembersWhatWasSeenAndPlanned)
+    {
+        Scenario scenario = openGround(25.0);
+        scenario.polygons = {box(12.0, -1.5, 13.0, 1.5)};
+        SensorParameters sensor;
+        sensor.range = 8.0;
+        AutomaticParking parking;
+        parking.setPerception(std::make_shared<SimulatedSensor>(scenario, sensor));
+        const ParkingResult result = parking.park(scenario);
+        ASSERT_TRUE(result.parked()) << result.message;
+        OccupancyGrid map = result.history.map;
+        EXPECT_EQ(std::count(map.cells().begin(), map.cells().end(), Cell::Occupied), 0);
+        double time = -1.0;
+        for (const SeenFrame &frame : result.history.frames)
+        {
+            EXPECT_GT(frame.time, time);
+            time = frame.time;
+            map.apply(frame.changes);
+        }
+        EXPECT_LE(time, result.trajectory.back().t);
+        EXPECT_GT(std::count(map.cells().begin(), map.cells().end(), Cell::Occupied), 20);
+        const ReactionFigures figures = reactionFigures(result);
+        EXPECT_EQ(result.history.plans.size(), result.legs.size() + figures.newMotions);
+        EXPECT_GT(figures.newMotions + figures.stops, 0u);
+        EXPECT_GT(figures.check.median, 0.0);
+        EXPECT_GE(figures.motion.max, figures.motion.median);
+        // Each plan begins where the car is when the motion begins, or later on its way.
+        for (const TimedPlan &plan : result.history.plans)
+        {
+            ASSERT_FALSE(plan.path.pieces.empty());
+            EXPECT_TRUE(std::any_of(result.trajectory.begin(), result.trajectory.end(),
+                                    [&plan](const TrajectoryPoint &point) {
+                                        return point.t >= plan.time - 1e-9 &&
+                                               std::hypot(point.x - plan.path.start.x, point.y - plan.path.start.y) <
+                                                   0.2;
+                                    }))
+                << plan.time;
         }
     }
 

@@ -45,7 +45,7 @@ namespace
 
     TEST(DriveAnimationTest, holdsAllThatItNeeds)
     {
-        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "A drive", "in words");
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "A drive", {"in words", {}, {}});
         EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0u);
         EXPECT_EQ(count(page, "A drive"), 2u);
         EXPECT_EQ(count(page, "in words"), 1u);
@@ -54,7 +54,7 @@ namespace
             EXPECT_NE(page.find(part), std::string::npos) << part;
         // Every mark was replaced.
         for (const char *mark : {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@VIEW@", "@LEGEND@",
-                                 "@DRIVEN@", "@PLOTS@", "@DARK@"})
+                                 "@DRIVEN@", "@PLOTS@", "@DARK@", "@FRAME@", "@LATEST@"})
             EXPECT_EQ(page.find(mark), std::string::npos) << mark;
         // Nothing is fetched: the only address is the name of SVG's namespace.
         EXPECT_EQ(count(page, "://"), count(page, "http://www.w3.org/2000/svg"));
@@ -68,14 +68,35 @@ namespace
         EXPECT_EQ(count(alone, ">planned trajectory<"), 0u);
         EXPECT_EQ(count(alone, ">driven<"), 4u) << "on the map and in three plots";
         EXPECT_EQ(count(alone, ">reverse<"), 3u);
-        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t", {}, someDrive());
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t", {{}, someDrive(), {}});
         EXPECT_EQ(count(page, ">planned trajectory<"), 1u);
         EXPECT_EQ(count(page, ">planned<"), 3u);
         // The plan is faded below the trajectory: on the map per stretch, and in the legend per direction.
         EXPECT_EQ(count(page, "stroke-opacity=\"0.25\""), 4u);
         EXPECT_EQ(count(alone, "stroke-opacity=\"0.25\""), 0u);
-        expectError([&] { driveAnimation(openGround(), {}, someDrive(), "t", {}, {someDrive().front()}); },
-                    {"1 points"});
+        expectError(
+            [&] {
+                driveAnimation(openGround(), {}, someDrive(), "t", {{}, {someDrive().front()}, {}});
+            },
+            {"1 points"});
+    }
+
+    TEST(DriveAnimationTest, holdsWhatWasSeenAndPlannedOnTheWay)
+    {
+        DriveHistory history;
+        history.map = OccupancyGrid(10, 5, 0.5, {-1.0, -2.0, 0.0}, Cell::Unknown);
+        history.map.set(3, 0, Cell::Free);
+        history.frames = {{0.0, {{1, 1, Cell::Free}, {2, 1, Cell::Free}, {3, 1, Cell::Occupied}}},
+                          {0.5, {{9, 4, Cell::Occupied}}}};
+        history.plans = {{0.0, somePath()}, {0.5, {{1.0, 0.0, 0.0}, {{0.0, 0.2}}}}};
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t", {"", {}, history});
+        for (const char *part : {"[-1,[3,1,0]]", "[0,[11,2,0,13,1,1]]", "[0.5,[49,1,1]]", "[0.5,[1,0,1.1,0,1.2,0]]",
+                                 "not seen yet", "seen obstacle", "latest plan"})
+            EXPECT_NE(page.find(part), std::string::npos) << part;
+        EXPECT_EQ(page.find("planned, reverse"), std::string::npos) << "only the latest plan is shown";
+        const std::string known = driveAnimation(openGround(), somePath(), someDrive(), "t");
+        EXPECT_NE(known.find("\"seen\":null"), std::string::npos);
+        EXPECT_EQ(known.find("not seen yet"), std::string::npos);
     }
 
     TEST(DriveAnimationTest, writesEveryPointShortly)
@@ -95,8 +116,8 @@ namespace
 
     TEST(DriveAnimationTest, textsCannotBecomeMarkup)
     {
-        const std::string page =
-            driveAnimation(openGround(), {}, someDrive(), "</title><script>alert(1)</script>", "@DATA@ & <b>");
+        const std::string page = driveAnimation(openGround(), {}, someDrive(), "</title><script>alert(1)</script>",
+                                                {"@DATA@ & <b>", {}, {}});
         EXPECT_EQ(count(page, "<script"), 2u);
         EXPECT_EQ(page.find("<b></p>"), std::string::npos);
         EXPECT_NE(page.find("@DATA@ &amp; &lt;b&gt;"), std::string::npos);

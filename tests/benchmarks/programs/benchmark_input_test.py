@@ -65,6 +65,7 @@ class Configuration(InputTest):
             self.refused(benchmark='run_count = ' + value, parts=['set.cfg:7:', 'run_count', 'whole number'])
         self.refused(benchmark='save_paths = some', parts=['shortest'])
         self.refused(benchmark='track = perhaps', parts=['true or false'])
+        self.refused(benchmark='perceive = far', parts=['perceive', 'far'])
         self.refused(problem='vehicle = nan', parts=['set.cfg:3:', "'nan'", 'vw_golf8'])
         self.refused(problem='vehicle = no/such.yaml', parts=['set.cfg:3:', 'no/such.yaml', 'No such file'])
         self.refused(planner='PRM=\nPRM.problem.vehicle=golf', parts=['set.cfg:11:', "'golf'"])

@@ -66,6 +66,22 @@ class DrivePageTest(ProgramTest):
         self.assertLess(shown, 0.8 * whole)
         self.assertGreaterEqual(shown, 7.999)
 
+    def test_it_shows_what_is_seen_and_planned_on_the_way(self):
+        self.plan(bundled('parallel'), '--track', '--perceive', '6', '--html', 'drive.html')
+        browser = self.visit(still=True)
+        self.until(browser, 'image.getAttribute("href").startsWith("data:image/png")')
+        unseen = 'cells.reduce((sum, cell) => sum + (cell === 2), 0)'
+        first = self.value(browser, unseen)
+        plan = self.value(browser, "byId('plan').getAttribute('d')")
+        self.assertTrue(plan.startswith('M'), plan)
+        self.value(browser, 'go(end)')
+        last = self.value(browser, unseen)
+        self.assertLess(last, first)
+        self.value(browser, 'go(begin)')
+        self.assertEqual(self.value(browser, unseen), first)
+        self.assertEqual(self.value(browser, "byId('plan').getAttribute('d')"), plan)
+        self.assertEqual(browser.console, [])
+
     def test_it_has_a_dark_theme(self):
         colours = [self.value(self.visit(dark, still=True, width=390), STATE) for dark in (False, True)]
         for name in ('page', 'map', 'ink', 'ground'):

@@ -98,6 +98,34 @@ class TrackTest(ProgramTest):
         self.refused_plan(bundled('perpendicular'), '--track', '--html', 'no/folder/a.html', parts=['no/folder'])
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_a_sensor_sees_while_the_car_drives(self):
+        result = self.planned(bundled('perpendicular'), '--track', '--perceive', '12,10')
+        seen = result['perception']
+        self.assertEqual((seen['range_m'], seen['rate_hz']), (12.0, 10.0))
+        self.assertTrue(result['tracking']['arrived'], result['tracking']['message'])
+        self.assertEqual(result['tracking']['collisions'], 0)
+        self.assertGreater(seen['check_ms']['median'], 0.0)
+        self.assertGreaterEqual(seen['new_motion_ms']['max'], seen['new_motion_ms']['median'])
+        self.assertIn('first plan', seen['events'][0])
+        self.write('set.cfg', f'[problem]\nscenario = {bundled("perpendicular")}\n[benchmark]\ntime_limit = 20\n'
+                              'run_count = 1\nperceive = 12,10\n[planner]\nimproved_astar=\nreeds_shepp=\n')
+        self.benchmark('set.cfg', '--output', 'perceived', '--quiet')
+        ours, other = (each['figures'] for each in self.records('perceived/benchmark.db', clock=True))
+        self.assertEqual(ours['perceived parked'], True)
+        self.assertEqual(ours['perceived stops'], seen['stops'])
+        self.assertEqual(ours['perceived new motions'], seen['new_motions'])
+        self.assertAlmostEqual(ours['perceived drive time'], result['trajectory'][-1]['t'], delta=1e-9)
+        self.assertGreater(ours['known drive time'], 0.0)
+        self.assertGreaterEqual(ours['stopping drive time'], ours['known drive time'])
+        self.assertEqual([name for name in other if 'perceived' in name], [])
+
+    def test_bad_sensors_are_refused(self):
+        drive = [bundled('perpendicular'), '--track', '--perceive']
+        for text in ('', 'far', '-3', '0', 'nan', '20,', '20,0', '20,10,5', '1e9'):
+            self.refused_plan(*drive, text, parts=['--perceive'])
+        self.refused_plan(bundled('perpendicular'), '--perceive', '20', parts=['--perceive', 'requires --track'])
+        self.refused_plan(*drive, '20', '--planner', 'RRTConnect', parts=['improved_astar', 'RRTConnect'])
+
 
 if __name__ == '__main__':
     main()
