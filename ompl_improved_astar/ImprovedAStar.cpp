@@ -34,6 +34,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -57,15 +58,21 @@ namespace ompl::geometric
         constexpr double SAME_POSE = 1e-12;      // metres and radians
         constexpr double STAYS = 1e-3;           // metres that OMPL may drive to a goal within the tolerance
 
-        constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
-        constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
+        constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region or a longer list
+        constexpr unsigned int MAX_LISTED_GOALS = 1000;  // all are read from a list of this length
         constexpr unsigned int GOAL_ATTEMPTS = 1000;     // samples of a region for a first valid or reachable goal
+
+        /** Whether the goals are so few that all are read at first. */
+        bool isShort(const ob::GoalSampleableRegion &region)
+        {
+            return region.maxSampleCount() <= MAX_LISTED_GOALS;
+        }
 
         /** Whether the goals are a list, or few enough to be read as one. Large finite numbers of samples, such as
             INT_MAX, stand for a continuous region. */
         bool isList(const ob::GoalSampleableRegion &region)
         {
-            return region.hasType(ob::GOAL_STATES) || region.maxSampleCount() <= MAX_LISTED_GOALS;
+            return region.hasType(ob::GOAL_STATES) || isShort(region);
         }
 
         /** The states that OMPL has stored so far: starts, or the goals of a goal state or a list. */
@@ -143,6 +150,8 @@ namespace ompl::geometric
     /** What belongs to one query, and the memory that outlives it. */
     struct ImprovedAStar::Query
     {
+        using Row = std::array<double, 3>;
+
         std::optional<parking::CurveSpace> space;  ///< set by setup()
 
         /** \brief With an FclFootprintChecker and a model that does not turn on the spot; otherwise null. */
@@ -163,6 +172,7 @@ namespace ompl::geometric
             goals;                                  ///< likewise
         std::vector<Pose> storedStarts,             ///< the problem's, valid or not, at the last solve()
             storedGoals;                            ///< those of a goal state or a list, at the last solve()
+        std::set<Row> knownGoals;                   ///< x, y, yaw of goals
         unsigned int otherGoals{0};                 ///< samples of a region after none of the first was reachable
         std::optional<Pose> fallbackTarget;         ///< a goal to come near to when none is valid
         PlanOutcome outcome{PlanOutcome::Timeout};  ///< of the last solve()
@@ -228,6 +238,7 @@ namespace ompl::geometric
             goal.reset();
             starts.clear();
             goals.clear();
+            knownGoals.clear();
             storedStarts.clear();
             storedGoals.clear();
             otherGoals = 0;
@@ -505,9 +516,8 @@ namespace ompl::geometric
 
     bool ImprovedAStar::addGoal(const Pose &pose)
     {
-        for (const Pose &known : query_->goals)
-            if (known.x == pose.x && known.y == pose.y && known.yaw == pose.yaw)
-                return false;
+        if (!query_->knownGoals.insert({pose.x, pose.y, pose.yaw}).second)
+            return false;
         query_->goals.push_back(pose);
         query_->planner.addGoal(pose);
         return true;
@@ -518,24 +528,28 @@ namespace ompl::geometric
         return pis_.haveMoreGoalStates() || isSampling(*pdef_->getGoal());
     }
 
-    bool ImprovedAStar::readAnotherGoal(const ob::PlannerTerminationCondition &ptc)
+    /** Reads up to as many goals again as there are: to search on takes longer the more there are. */
+    bool ImprovedAStar::readMoreGoals(const ob::PlannerTerminationCondition &ptc)
     {
         // Goals that are being sampled are worth waiting for. A region has endless others: their number is limited.
         const auto &goal = *pdef_->getGoal()->as<ob::GoalSampleableRegion>();
-        while (!ptc && mayHaveOtherGoals() && (isList(goal) || query_->otherGoals++ < GOAL_ATTEMPTS))
+        const std::size_t known = query_->goals.size();
+        while (!ptc && mayHaveOtherGoals() && query_->goals.size() < 2 * known &&
+               (isList(goal) || query_->otherGoals++ < GOAL_ATTEMPTS))
         {
-            const ob::State *state = isSampling(goal) ? pis_.nextGoal(ptc) : pis_.nextGoal();
-            if (state != nullptr && addGoal(parking::poseOf(state)))
-                return true;
+            const bool waits = isSampling(goal);
+            const ob::State *state = waits ? pis_.nextGoal(ptc) : pis_.nextGoal();
+            if (state != nullptr && addGoal(parking::poseOf(state)) && waits)
+                break;
         }
-        return false;
+        return query_->goals.size() > known;
     }
 
     ImprovedAStar::GoalReading ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region,
                                                         const ob::PlannerTerminationCondition &ptc)
     {
         const bool listed = isList(region);
-        const std::size_t maxGoals = listed ? MAX_LISTED_GOALS : MAX_SAMPLED_GOALS;
+        const std::size_t maxGoals = isShort(region) ? MAX_LISTED_GOALS : MAX_SAMPLED_GOALS;
         unsigned int attempt = 0;
         // The first is looked at in any case.
         for (; (listed || attempt < GOAL_ATTEMPTS) && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
@@ -753,7 +767,7 @@ namespace ompl::geometric
         using Outcome = PathPlanner::Outcome;
         Outcome outcome = query_->goals.empty() ? Outcome::Stopped : query_->planner.solve(stop, improved);
         // That one goal cannot be reached says nothing of those that nobody has asked for yet.
-        while (outcome == Outcome::Exhausted && readAnotherGoal(ptc))
+        while (outcome == Outcome::Exhausted && readMoreGoals(ptc))
             outcome = query_->planner.solve(stop, improved);
         if (outcome == Outcome::Solved && !parameters_.anytime)
             offerPathOfOwnWeights(stop, improved);
@@ -821,9 +835,9 @@ namespace ompl::geometric
             return difference;
         }
         // Asked itself, the goal would measure the distance to all of its states, at which OMPL ends the program where
-        // one is out of bounds. A yaw of just pi is.
-        const std::vector<Pose> targets =
-            query_->goals.empty() ? std::vector<Pose>{*query_->fallbackTarget} : query_->goals;
+        // one is out of bounds. A yaw of just pi is. Thousands of curves would take longer than is left.
+        std::vector<Pose> targets = query_->goals.empty() ? std::vector<Pose>{*query_->fallbackTarget} : query_->goals;
+        targets.resize(std::min<std::size_t>(targets.size(), MAX_LISTED_GOALS));
         ob::ScopedState<> target(si_);
         for (const Pose &pose : targets)
         {

@@ -180,7 +180,7 @@ namespace ompl::geometric
         GoalReading readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
         bool addGoal(const parking::Pose &pose);
         bool mayHaveOtherGoals() const;
-        bool readAnotherGoal(const base::PlannerTerminationCondition &ptc);
+        bool readMoreGoals(const base::PlannerTerminationCondition &ptc);
         void offerPathOfOwnWeights(const parking::search::StopFunction &stop,
                                    const parking::search::ImprovementFunction &improved);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);

@@ -120,7 +120,8 @@ namespace parking
         // Pattern search: eight neighbours, then half the step.
         for (double scale = 0.5; scale > FINEST;)
         {
-            const Eigen::Vector2d from = deepest, step = scale * first;
+            const Eigen::Vector2d step = scale * first;
+            const Eigen::Vector2d from = deepest;  // NOLINT: consider() changes deepest
             bool deeper = false;
             for (const double dx : {-1.0, 0.0, 1.0})
                 for (const double dy : {-1.0, 0.0, 1.0})

@@ -15,7 +15,7 @@ namespace parking
         constexpr double TALLEST = 1.0;
         constexpr double SEEN = 0.5;  ///< smallest visible area in square pixels
 
-        Box widened(Box view)
+        Box widened(const Box &view)
         {
             if (!view.min.allFinite() || !view.max.allFinite() || !(view.size().minCoeff() > 0.0))
                 throw Error("the view of a map panel is empty or not finite");

@@ -31,8 +31,8 @@ except ImportError as error:
 __all__ = ['DrivingCostObjective', 'FootprintChecker', 'ImprovedAStar', 'Parameters', 'SweptMotionValidator',
            'pathCost', 'simpleSetup']
 
-MAX_SAMPLED_GOALS = 16   # read at first from a region
-MAX_LISTED_GOALS = 1000  # read at first from a list
+MAX_SAMPLED_GOALS = 16   # read at first from a region or a longer list
+MAX_LISTED_GOALS = 1000  # all are read from a list of this length
 GOAL_ATTEMPTS = 1000     # samples of a region for a first valid or reachable goal
 SUMMED_WEIGHTS = ('reverse_penalty', 'gear_change_penalty', 'steering_change_penalty', 'clearance_cost')
 WEIGHTS = (*SUMMED_WEIGHTS, 'preferred_clearance', 'turning_radius')
@@ -47,14 +47,12 @@ class _Space:
 
     def __init__(self, si: ob.SpaceInformation) -> None:
         space = si.getStateSpace()
-        self.radius = 0.0  # of the curves in metres
         if isinstance(space, ob.ReedsSheppStateSpace):
-            self.kind, base, unit = 'reeds_shepp', ob.ReedsSheppStateSpace, ob.ReedsSheppStateSpace(1.0)
+            self.kind, base = 'reeds_shepp', ob.ReedsSheppStateSpace
         elif isinstance(space, ob.DubinsStateSpace):
-            isSymmetric = ob.DubinsStateSpace.hasSymmetricInterpolate(space)
-            self.kind, base, unit = 'dubins', ob.DubinsStateSpace, ob.DubinsStateSpace(1.0, isSymmetric)
+            self.kind, base = 'dubins', ob.DubinsStateSpace
         elif isinstance(space, ob.SE2StateSpace):
-            self.kind, base, unit = 'se2', ob.SE2StateSpace, None
+            self.kind, base = 'se2', ob.SE2StateSpace
         else:
             raise Error('space must be an SE2, a Reeds-Shepp or a Dubins state space, not '
                         f'{type(space).__name__}')
@@ -64,11 +62,22 @@ class _Space:
         self.satisfiesBounds = functools.partial(base.satisfiesBounds, space)
         self.isSymmetric = base.hasSymmetricInterpolate(space)
         self._getBounds = functools.partial(base.getBounds, space)
-        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
-        self._first, self._last, self._between = self.allocState(), self.allocState(), self.allocState()
-        if unit is not None:  # OMPL has no getter for the radius. A distance is proportional to it.
-            ends = _put(self._first, (0.0, 0.0, 0.0)), _put(self._last, (0.0, 0.0, 0.5 * math.pi))
-            self.radius = self.distance(*ends) / unit.distance(*ends)
+
+    @functools.cached_property
+    def states(self) -> Tuple[ob.State, ob.State, ob.State]:
+        """Three states for all queries, because OMPL does not free all memory of a state that Python deletes."""
+        return self.allocState(), self.allocState(), self.allocState()
+
+    @functools.cached_property
+    def radius(self) -> float:
+        """Turning radius of the curves in metres, 0 on a plain space."""
+        if self.kind == 'se2':
+            return 0.0
+        unit = ob.ReedsSheppStateSpace(1.0) if self.kind == 'reeds_shepp' else \
+            ob.DubinsStateSpace(1.0, self.isSymmetric)
+        # OMPL has no getter for the radius. A distance is proportional to it.
+        ends = _put(self.states[0], (0.0, 0.0, 0.0)), _put(self.states[1], (0.0, 0.0, 0.5 * math.pi))
+        return self.distance(*ends) / unit.distance(*ends)
 
     def bounds(self) -> Tuple[float, float, float, float]:
         """Returns the smallest and the largest x, y."""
@@ -76,11 +85,11 @@ class _Space:
         return (*bounds.low, *bounds.high)
 
     def distanceBetween(self, first: Pose, last: Pose) -> float:
-        return self.distance(_put(self._first, first), _put(self._last, last))
+        return self.distance(_put(self.states[0], first), _put(self.states[1], last))
 
     def poseBetween(self, first: Pose, last: Pose, fraction: float) -> Pose:
-        self.interpolate(_put(self._first, first), _put(self._last, last), fraction, self._between)
-        return _poseOf(self._between)
+        self.interpolate(_put(self.states[0], first), _put(self.states[1], last), fraction, self.states[2])
+        return _poseOf(self.states[2])
 
 
 def _put(state: ob.State, pose: Pose) -> ob.State:
@@ -106,17 +115,22 @@ def _isSampling(goal: ob.Goal) -> bool:
     return isinstance(goal, ob.GoalLazySamples) and goal.isSampling()
 
 
+def _isShort(goal: ob.GoalSampleableRegion) -> bool:
+    """Whether the goals are so few that all are read at first."""
+    return goal.maxSampleCount() <= MAX_LISTED_GOALS
+
+
 def _isList(goal: ob.GoalSampleableRegion) -> bool:
     """Whether the goals are a list. Large finite numbers of samples stand for a continuous region."""
-    return isinstance(goal, ob.GoalStates) or goal.maxSampleCount() <= MAX_LISTED_GOALS
+    return isinstance(goal, ob.GoalStates) or _isShort(goal)
 
 
-def _storedGoals(goal: ob.Goal) -> List[Pose]:
-    """Returns the goals that OMPL has stored so far: those of a goal state or a list."""
+def _storedGoals(goal: ob.Goal, count: int) -> List[Pose]:
+    """Returns up to count goals that OMPL has stored so far: those of a goal state or a list."""
     if isinstance(goal, ob.GoalState):
         return [_poseOf(goal.getState())]
     if isinstance(goal, ob.GoalStates):
-        return [_poseOf(goal.getState(index)) for index in range(goal.getStateCount())]
+        return [_poseOf(goal.getState(index)) for index in range(min(count, goal.getStateCount()))]
     return []
 
 
@@ -170,7 +184,6 @@ class SweptMotionValidator(ob.MotionValidator):
         self.checker = checker
         self._space = _Space(si)
         self._curvature = 1.0 / self._space.radius if self._space.radius else 0.0
-        self._between = self._space.allocState()
 
     def checkMotion(self, first: ob.State, last: ob.State) -> bool:
         if not self.checker.isValid(last):
@@ -178,9 +191,11 @@ class SweptMotionValidator(ob.MotionValidator):
         if self._space.kind == 'se2':
             return self.checker.footprint.is_line_free(*_poseOf(first), *_poseOf(last))
 
+        between = self._space.states[2]
+
         def at(fraction: float) -> Optional[Pose]:
-            self._space.interpolate(first, last, fraction, self._between)
-            return _poseOf(self._between) if self._space.satisfiesBounds(self._between) else None
+            self._space.interpolate(first, last, fraction, between)
+            return _poseOf(between) if self._space.satisfiesBounds(between) else None
 
         return self.checker.footprint.is_curve_free(at, self._space.distance(first, last), self._curvature)
 
@@ -222,7 +237,7 @@ class DrivingCostObjective(ob.OptimizationObjective):
             if type(checker) is FootprintChecker:
                 clearance = checker.footprint
             elif type(checker).clearance is not ob.StateValidityChecker.clearance:
-                state = self._space.allocState()
+                state = self._space.states[2]  # the core must not hold this object, which holds the core's
 
                 def clearance(*pose: float) -> float:
                     return checker.clearance(_put(state, pose))
@@ -338,8 +353,7 @@ class _World:
 
     def __init__(self, si: ob.SpaceInformation, space: _Space) -> None:
         self._si, self._space = si, space
-        # Shared by all queries, because OMPL does not free all memory of a state that Python deletes.
-        self._first, self._last = self._space.allocState(), self._space.allocState()
+        self._first, self._last, _ = space.states
         self.areValid: Optional[Callable[[numpy.ndarray], ArrayLike]] = None
         self.isTimeUp: Callable[[], bool] = _never
 
@@ -395,7 +409,7 @@ class ImprovedAStar(ob.Planner):
         super().__init__(si, name)
         self._si, self._space = si, _Space(si)
         self._params = Parameters(parameters)
-        self._world, self._state = _World(si, self._space), self._space.allocState()
+        self._world, self._state = _World(si, self._space), self._space.states[2]
         self._dataStates: List[ob.State] = []
         self._inputs = ob.PlannerInputStates()
         self._clearQuery()
@@ -449,7 +463,8 @@ class ImprovedAStar(ob.Planner):
         objective, own = pdef.getOptimizationObjective(), self._params.current
         asked = (pdef, goal, si.getStateValidityChecker(), si.getMotionValidator(), objective, own,
                  _searchParameters(objective, own))
-        starts, storedGoals = self._validStarts(pdef), _storedGoals(goal)
+        # Goals beyond those that were read do not matter. To read a long list takes longer than to search.
+        starts, storedGoals = self._validStarts(pdef), _storedGoals(goal, max(MAX_LISTED_GOALS, len(self._goals)))
         if self._query is not None and not (all(a is b or a == b for a, b in zip(asked, self._asked))
                                             and starts[:len(self._starts)] == self._starts
                                             and storedGoals[:len(self._storedGoals)] == self._storedGoals):
@@ -511,7 +526,7 @@ class ImprovedAStar(ob.Planner):
     def _readGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> Any:
         """Reads the first goals. Returns None, INVALID_GOAL or TIMEOUT."""
         isList = _isList(goal)
-        maxGoals = MAX_LISTED_GOALS if isList else MAX_SAMPLED_GOALS
+        maxGoals = MAX_LISTED_GOALS if _isShort(goal) else MAX_SAMPLED_GOALS
         attempt = 0
         while (isList or attempt < GOAL_ATTEMPTS) and self._inputs.haveMoreGoalStates() and \
                 (attempt == 0 or not ptc()):
@@ -535,13 +550,16 @@ class ImprovedAStar(ob.Planner):
     def _mayHaveOtherGoals(self, goal: ob.GoalSampleableRegion) -> bool:
         return self._inputs.haveMoreGoalStates() or _isSampling(goal)
 
-    def _readAnotherGoal(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
-        while not ptc() and self._mayHaveOtherGoals(goal) and \
+    def _readMoreGoals(self, goal: ob.GoalSampleableRegion, ptc: ob.PlannerTerminationCondition) -> bool:
+        """Reads up to as many goals again as there are: to search on takes longer the more there are."""
+        known = len(self._goals)
+        while not ptc() and self._mayHaveOtherGoals(goal) and len(self._goals) < 2 * known and \
                 (_isList(goal) or self._otherGoals < GOAL_ATTEMPTS):
             self._otherGoals += 1
-            if self._addGoal(self._inputs.nextGoal(ptc) if _isSampling(goal) else self._inputs.nextGoal()):
-                return True
-        return False
+            waits = _isSampling(goal)
+            if self._addGoal(self._inputs.nextGoal(ptc) if waits else self._inputs.nextGoal()) and waits:
+                break
+        return len(self._goals) > known
 
     def _anyGoal(self, goal: ob.GoalSampleableRegion) -> Optional[Pose]:
         if goal.maxSampleCount() == 0:
@@ -567,7 +585,7 @@ class ImprovedAStar(ob.Planner):
         if self._goals:
             judgeOrNone = judge if objective is not None else None
             outcome = query.solve(ptc, judgeOrNone)
-            while outcome == 'exhausted' and self._readAnotherGoal(goal, ptc):
+            while outcome == 'exhausted' and self._readMoreGoals(goal, ptc):
                 outcome = query.solve(ptc, judgeOrNone)
             isExhausted = outcome == 'exhausted'
         isInfeasible = isExhausted and not self._mayHaveOtherGoals(goal)
@@ -599,7 +617,7 @@ class ImprovedAStar(ob.Planner):
             return goal.isSatisfiedWithDistance(state)[1]
         # The goal itself would measure the distance to states out of bounds, which ends the program.
         differences = []
-        for pose in self._goals or [target]:
+        for pose in self._goals[:MAX_LISTED_GOALS] or [target]:  # thousands would take longer than is left
             _put(self._state, pose)
             self._si.enforceBounds(self._state)
             differences.append(self._si.distance(state, self._state))

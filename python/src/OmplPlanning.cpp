@@ -22,6 +22,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -263,7 +264,7 @@ namespace parking::python
                       const py::dict &own)
               : footprint_(footprint),
                 parameters_(parametersFrom(parameters)),
-                own_(parametersFrom(own)),
+                own_(own.is(parameters) ? parameters_ : parametersFrom(own)),
                 world_(world),
                 isPlain_(space == "se2"),
                 turnsOnTheSpot_(search::turnsOnTheSpot(parameters_.motionModel)),
@@ -321,9 +322,8 @@ namespace parking::python
             bool addGoal(double x, double y, double yaw)
             {
                 const Pose goal{x, y, yaw};
-                for (const Pose &known : worldGoals_)
-                    if (known.x == x && known.y == y && known.yaw == yaw)
-                        return false;
+                if (!knownGoals_.insert({x, y, yaw}).second)
+                    return false;
                 worldGoals_.push_back(goal);
                 goals_.push_back(frame_.toLocal(goal));
                 planner_.addGoal(goals_.back());
@@ -518,6 +518,7 @@ namespace parking::python
             search::MotionEnvironment *environment_{nullptr};  // one of these
             search::PathPlanner planner_;
             std::vector<Pose> starts_, worldGoals_, goals_;
+            std::set<std::array<double, 3>> knownGoals_;
             bool hasSolution_{false}, isSatisfied_{false}, isCompared_{false};
             Path path_;
             double cost_{std::numeric_limits<double>::infinity()};

@@ -227,7 +227,24 @@ namespace
         EXPECT_EQ(listed.solve(), Status::EXACT_SOLUTION);
         ob::PlannerData data(listed.si);
         listed.planner->getPlannerData(data);
-        EXPECT_LE(data.numGoalVertices(), 1000u);
+        EXPECT_LE(data.numGoalVertices(), 50u);
+    }
+
+    TEST(PlannerGoals, TheLastOfManyIsFoundAndTheSearchStopsBetweenThem)
+    {
+        PlanningProblem problem(Space::SE2, CLOSED);
+        std::vector<Pose> goals;
+        for (unsigned int i = 0; i < 3000; ++i)
+            goals.push_back({5.0 + 0.001 * i, -5.0, 0.0});
+        goals.push_back(ON_THIS_SIDE);
+        problem.from({BEFORE_WALL}).to(goals);
+        EXPECT_NE(problem.solveWithPolls(1000), Status::EXACT_SOLUTION);
+        ob::PlannerData data(problem.si);
+        problem.planner->getPlannerData(data);
+        EXPECT_LT(data.numGoalVertices(), 2000u);
+        problem.pdef->clearSolutionPaths();
+        EXPECT_EQ(problem.solveWithPolls(20000), Status::EXACT_SOLUTION);
+        problem.expectSound();
     }
 
     TEST(PlannerGoals, GoalsThatAreNotFiniteAreInvalid)

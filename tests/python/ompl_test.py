@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+import weakref
 
 import numpy
 import pytest
@@ -260,6 +261,10 @@ def test_the_driving_cost_uses_the_clearance_of_a_checker():
     for checker, cost in ((Checker, 8.0), (Clear, 8.0 + 2.0 * 6.0)):
         si.setStateValidityChecker(checker(si))
         assert objective.cost(path).value() == pytest.approx(cost, abs=0.6)
+    remains = weakref.ref(objective)
+    del objective
+    gc.collect()
+    assert remains() is None
 
 
 @pytest.mark.parametrize('planner', [og.RRTstar, og.BITstar])
@@ -441,6 +446,28 @@ def test_of_many_goals_only_some_are_read():
     region = Counted(setup.getSpaceInformation())
     setup.setGoal(region)
     assert solve(setup) == Type.EXACT_SOLUTION and region.count <= 100
+
+
+def test_of_a_long_list_few_goals_are_read_at_first_and_more_as_needed():
+    def listed(polygons, poses):
+        setup = iao.simpleSetup(wall(polygons))
+        goals = ob.GoalStates(setup.getSpaceInformation())
+        for pose in poses:
+            goals.addState(state(setup, pose))
+        setup.setGoal(goals)
+        setup.setup()
+        setup.getPlanner().setProblemDefinition(setup.getProblemDefinition())
+        return setup, setup.getPlanner()
+
+    def polls(count):
+        left = iter(range(count))
+        return lambda: next(left, None) is None
+
+    setup, planner = listed(WALL, [(9.0 + 1e-4 * i, -5.0, 0.0) for i in range(20000)])
+    assert planner.solve(polls(2000)).getStatus() == Type.EXACT_SOLUTION and len(planner._goals) == 16
+    setup, planner = listed(CLOSED, [*((9.0 + 1e-3 * i, -5.0, 0.0) for i in range(2000)), (-8.0, 0.0, 0.0)])
+    assert planner.solve(polls(500)).getStatus() != Type.EXACT_SOLUTION and 16 < len(planner._goals) < 1000
+    assert planner.solve(polls(3000)).getStatus() == Type.EXACT_SOLUTION and len(planner._goals) == 2001
 
 
 def test_goals_that_are_not_finite_are_invalid():

@@ -462,3 +462,18 @@ def test_the_last_metres_are_straight_on_request():
     for name, value in (('final_straight', -1.0), ('max_escape_depth', -0.1), ('initial_straight', math.nan)):
         with pytest.raises(ia.Error, match=name):
             ia.plan(behind_the_wall(), **{name: value})
+
+
+def test_memory_does_not_grow():
+    def memory():
+        with open('/proc/self/statm', encoding='ascii') as file:
+            return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 2 ** 20
+
+    for number in range(700):
+        if number == 200:
+            before = memory()
+        result = ia.plan(behind_the_wall())
+        assert result and len(result.path)
+        with pytest.raises(ia.Error):
+            ia.plan(behind_the_wall(), heading_bins=-1)
+    assert memory() - before < 3.0  # MiB

@@ -57,7 +57,7 @@ namespace parking::search
         {
             if (buckets_[0].empty())
                 fillFirstBucket();
-            const Item item = buckets_[0].back().item;
+            Item item = buckets_[0].back().item;
             buckets_[0].pop_back();
             --size_;
             return item;

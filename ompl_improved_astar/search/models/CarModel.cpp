@@ -112,7 +112,7 @@ namespace parking::search
                           std::vector<Successor> &successors)
     {
         collectMotions(side, node);
-        const std::size_t count = motions_.size(), slots = 2 * context_->parameters.steeringAngles;
+        const std::size_t count = motions_.size(), slots = std::size_t{2} * context_->parameters.steeringAngles;
         std::vector<Reach> &ofNodes = reaches_[static_cast<std::size_t>(side)];
         if (ofNodes.size() < (index + 1) * slots)
             ofNodes.resize((index + 1) * slots);

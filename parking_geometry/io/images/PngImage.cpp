@@ -25,10 +25,10 @@ namespace parking
         /** Bits of a pixel in the file. Bytes 24 and 25 of the valid header contain its depth and type. */
         std::size_t bitsPerPixel(const std::string &bytes)
         {
-            const int type = bytes[25];
-            const int colours = (type & PNG_COLOR_MASK_COLOR) != 0 && type != PNG_COLOR_TYPE_PALETTE ? 3 : 1;
-            const int channels = colours + ((type & PNG_COLOR_MASK_ALPHA) != 0 ? 1 : 0);
-            return static_cast<std::size_t>(channels * bytes[24]);
+            const auto depth = static_cast<unsigned char>(bytes[24]), type = static_cast<unsigned char>(bytes[25]);
+            const unsigned int colours = (type & PNG_COLOR_MASK_COLOR) != 0 && type != PNG_COLOR_TYPE_PALETTE ? 3 : 1;
+            const unsigned int channels = colours + ((type & PNG_COLOR_MASK_ALPHA) != 0 ? 1 : 0);
+            return std::size_t{channels} * depth;
         }
     }  // namespace
 
