@@ -153,8 +153,24 @@ namespace parking
 
         SavePaths savePathsNamed(const std::string &key, const std::string &value)
         {
-            choiceNamed(key, value, {"none", "shortest", "all"});
-            return value == "all" ? SavePaths::All : value == "shortest" ? SavePaths::Shortest : SavePaths::None;
+            choiceNamed(key, value, {"none", "shortest", "best", "all"});
+            return value == "all" ? SavePaths::All : value == "none" ? SavePaths::None : SavePaths::Shortest;
+        }
+
+        /** A space by OMPL.app's name for it. */
+        SpaceKind stateSpaceNamed(const std::string &key, const std::string &value)
+        {
+            if (value == "dubinssymmetric")
+                throw Error(key + " = dubinssymmetric has curves that no car can drive; use dubins or reedsshepp");
+            return choiceNamed(key, value, {"dubins", "reedsshepp"}) == "dubins" ? SpaceKind::Dubins
+                                                                                 : SpaceKind::ReedsShepp;
+        }
+
+        bool isKinematicCar(const std::string &key, const std::string &value)
+        {
+            if (value != "kinematic_car")
+                throw Error(key + " = " + value + " has states with more than a pose; the only model is kinematic_car");
+            return true;
         }
 
         bool isProcessorClock(const std::string &key, const std::string &value)
@@ -254,13 +270,23 @@ namespace parking
         template <class Options>
         using Keys = std::vector<std::pair<std::string, Setter<Options>>>;
 
+        /** Meshes are part of the scenario that parking_convert makes of them. */
+        void ofMeshes(ProblemOptions & /*options*/, Text /*key*/, Text /*value*/)
+        {
+        }
+
         using Problems = ProblemOptions;
         using Settings = ProblemSettings;
         const Keys<Problems> PROBLEM_KEYS{
             {"scenario", {}},  // for messages: set by readBenchmarkConfig()
             {"name", into(&Problems::name, ofValue(checkedName))},
             {"vehicle", into(&Problems::vehicle, ofValue(knownVehicle))},
+            {"turningradius", into(&Problems::turningRadius, positive())},
             {"space", intoSettings(&Settings::space, ofValue(spaceByName))},
+            {"statespace", intoSettings(&Settings::space, stateSpaceNamed)},
+            {"control", into(&Problems::controls, isKinematicCar)},
+            {"world", ofMeshes},
+            {"robot", ofMeshes},
             {"footprint", intoSettings(&Settings::footprint, ofValue(footprintByName))},
             {"circle_radius", intoSettings(&Settings::circleRadius, positive())},
             {"start.x", intoPose(&Problems::start, &Pose::x)},
@@ -280,7 +306,8 @@ namespace parking
              {
                  requireExactGoals(key, value);
              }},
-            {"sampler", into(&Problems::sampler, oneOf({"uniform", "gaussian", "obstacle_based", "bridge_test"}))}};
+            {"sampler", into(&Problems::sampler,
+                             oneOf({"uniform", "gaussian", "obstacle_based", "bridge_test", "max_clearance"}))}};
 
         using Config = BenchmarkConfig;
         const Keys<Config> BENCHMARK_KEYS{
@@ -300,17 +327,19 @@ namespace parking
         std::string hintFor(const std::string &key)
         {
             const std::pair<const char *, const char *> hints[] = {
-                {"world", "the obstacles are part of the scenario: scenario = FILE"},
-                {"robot", "the car is part of the scenario: scenario = FILE, or vehicle = NAME"},
-                {"statespace", "the space is chosen by space = reeds_shepp, dubins or se2"},
-                {"turningradius", "the turning radius is that of the car: vehicle = NAME"},
-                {"control", "planners with controls are chosen in [planner], for example control_RRT="},
                 {"solution_length", "the length of every path is in the results; leave it out"},
                 {"longest_valid_segment_fraction", "motions are checked as a whole, not step by step; leave it out"},
-                {"projection.", "projections are those of OMPL's spaces; leave it out"}};
+                {"projection.", "projections are those of OMPL's spaces; leave it out"},
+                {"standard_deviation", "samplers have their own parameters; leave it out"},
+                {"nr_attempts", "samplers have their own parameters; leave it out"},
+                {"nr_improve_attempts", "samplers have their own parameters; leave it out"}};
             for (const auto &[name, hint] : hints)
                 if (key == name || (std::string(name).back() == '.' && key.compare(0, std::strlen(name), name) == 0))
                     return hint;
+            for (const char *spatial :
+                 {"start.z", "start.axis.", "goal.z", "goal.axis.", "volume.min.z", "volume.max.z"})
+                if (key.compare(0, std::strlen(spatial), spatial) == 0)
+                    return "problems with three dimensions are not supported";
             return "";
         }
 
@@ -330,6 +359,12 @@ namespace parking
             throw Error(unknownName("key of " + section, key, names));
         }
 
+        /** The name by which the line of a key is known: one for keys that set the same. */
+        std::string lineName(const std::string &key)
+        {
+            return key == "problem.statespace" ? "problem.space" : key;
+        }
+
         std::string uniqueName(const BenchmarkConfig &config, const std::string &wanted, std::size_t self)
         {
             std::string name = wanted;
@@ -344,45 +379,67 @@ namespace parking
             }
         }
 
-        /** Reads one line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the last one. */
+        void addPlanner(BenchmarkConfig &config, const ProblemOptions &base, const PlannerEntry &entry,
+                        const std::string &where)
+        {
+            config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", where}}});
+            config.planners.back().name = uniqueName(config, entry.name, config.planners.size() - 1);
+        }
+
+        /** The planner that a line sets a parameter of: the latest one of this name, which is added if there is none.
+         */
+        PlannerSpec &latest(BenchmarkConfig &config, const ProblemOptions &base, const PlannerEntry &entry,
+                            const std::string &where)
+        {
+            std::vector<PlannerSpec> &all = config.planners;
+            const auto found = std::find_if(all.rbegin(), all.rend(),
+                                            [&entry](const PlannerSpec &each) { return each.planner == entry.name; });
+            if (found != all.rend())
+                return *found;
+            addPlanner(config, base, entry, where);
+            return all.back();
+        }
+
+        /** Reads one line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the latest one, and
+            `problem.space=se2` changes the problem of the latest planner. */
         void setPlannerOption(BenchmarkConfig &config, const ProblemOptions &base, const PlannerRegistry &registry,
                               const ConfigLine &line)
         {
             const auto &[section, key, value, where] = line;
             const std::size_t dot = key.find('.');
-            if (dot != std::string::npos && key.compare(0, dot, "problem") == 0)
-                throw Error(inQuotes(key) + " names no planner; write NAME." + key + " for one planner, or " +
-                            inQuotes(key.substr(dot + 1)) + " in [problem] for all of them");
-            const PlannerEntry &entry = registry.find(key.substr(0, dot));
+            const bool isOfLatest = dot != std::string::npos && key.compare(0, dot, "problem") == 0;
+            if (isOfLatest && config.planners.empty())
+                throw Error(inQuotes(key) + " follows no planner; write " + inQuotes(key.substr(dot + 1)) +
+                            " in [problem] for all of them");
+            const std::string name = isOfLatest ? config.planners.back().planner : key.substr(0, dot);
+            const PlannerEntry &entry = base.controls ? registry.findWithControls(name) : registry.find(name);
             if (dot == std::string::npos)
             {
                 if (!value.empty())
                     throw Error("no value may follow '" + key + "=', which adds a planner; set a parameter by '" + key +
                                 ".parameter=value'");
-                config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", where}}});
-                config.planners.back().name = uniqueName(config, entry.name, config.planners.size() - 1);
-                return;
+                return addPlanner(config, base, entry, where);
             }
-            const std::string parameter = key.substr(dot + 1);
-            if (config.planners.empty() || config.planners.back().planner != entry.name)
-                throw Error("'" + key + "' sets a parameter of a planner that is not the last one added; put '" +
-                            key.substr(0, dot) + "=' before it");
+            const std::string parameter = isOfLatest ? key : key.substr(dot + 1);
             if (parameter.empty())
                 throw Error("'" + key + "' has no parameter name; set a parameter by '" + entry.name +
                             ".parameter=value'");
-            PlannerSpec &spec = config.planners.back();
-            line.noteOnce(spec.lines, parameter);
+            PlannerSpec &spec = latest(config, base, entry, where);
+            line.noteOnce(spec.lines, lineName(parameter));
             if (parameter == "name")
             {
                 spec.name = checkedName(value);
-                if (uniqueName(config, value, config.planners.size() - 1) != value)
+                const auto self = static_cast<std::size_t>(&spec - config.planners.data());
+                if (uniqueName(config, value, self) != value)
                     throw Error("another planner already has the name " + inQuotes(value));
             }
             else if (parameter == "only")
                 spec.only = patternsNamed(key, value);
-            else if (parameter == "problem.scenario" || parameter == "problem.name")
-                throw Error("one planner cannot have its own scenario; select scenarios by '" + key.substr(0, dot) +
-                            ".only'");
+            else if (parameter == "problem.scenario" || parameter == "problem.name" || parameter == "problem.world" ||
+                     parameter == "problem.robot")
+                throw Error("one planner cannot have its own scenario; select scenarios by '" + name + ".only'");
+            else if (parameter == "problem.control")
+                throw Error("control belongs to [problem]; one planner with controls is added by 'control_RRT='");
             else if (parameter.compare(0, 8, "problem.") == 0)
                 setByKey(PROBLEM_KEYS, "[problem]", spec.problem, parameter.substr(8), value);
             else
@@ -561,7 +618,7 @@ namespace parking
                     else if (line.section == "problem")
                     {
                         setByKey(PROBLEM_KEYS, "[problem]", base, line.key, line.value);
-                        line.noteOnce(config.problemLines, "problem." + line.key);
+                        line.noteOnce(config.problemLines, lineName("problem." + line.key));
                     }
                     else if (line.section == "benchmark")
                     {
@@ -576,6 +633,11 @@ namespace parking
                     throw Error(line.where + error.what());
                 }
             }
+        const fs::path converted = fs::path(file).replace_extension(".yaml");
+        std::error_code ignored;
+        if (config.scenarios.empty() && config.problemLines.count("problem.world") > 0 &&
+            fs::is_regular_file(converted, ignored))
+            config.scenarios.push_back(converted.string());
         if (config.planners.empty())
             throw Error(file + ": no planner; [planner] must add at least one, for example 'improved_astar='");
         requireFittingSettings(config);

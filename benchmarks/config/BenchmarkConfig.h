@@ -15,16 +15,19 @@ namespace parking
     /** \brief Changes to the scenarios of a comparison: the section [problem] of a .cfg file. */
     struct ProblemOptions
     {
-        std::string name;            ///< replaces the scenario's name; with a single scenario only
-        std::string vehicle;         ///< name or file; empty: the scenario's vehicle
-        ProblemSettings settings;    ///< state space and footprint of the planning problem
+        std::string name;                     ///< replaces the scenario's name; with a single scenario only
+        std::string vehicle;                  ///< name or file; empty: the scenario's vehicle
+        std::optional<double> turningRadius;  ///< replaces the vehicle's in metres, by its steering angle
+        bool controls{false};      ///< whether names of planners are those of planners with controls, if there are such
+        ProblemSettings settings;  ///< state space and footprint of the planning problem
         std::optional<Pose> start,   ///< replaces the scenario's start, in the coordinates of its file
             goal;                    ///< replaces all goals and the slot of the scenario
         std::optional<double> minX,  ///< lower bound of the rear axle's x in metres, within the scenario's bounds
             minY,                    ///< lower bound of the rear axle's y in metres, within the scenario's bounds
             maxX,                    ///< upper bound of the rear axle's x in metres, within the scenario's bounds
             maxY;                    ///< upper bound of the rear axle's y in metres, within the scenario's bounds
-        std::string sampler;  ///< sampler of valid states: empty, uniform, gaussian, obstacle_based or bridge_test
+        std::string sampler;  ///< sampler of valid states: empty, uniform, gaussian, obstacle_based, bridge_test or
+                              ///< max_clearance
     };
 
     /** \brief One planner of a comparison, with its parameters. */
@@ -82,6 +85,9 @@ namespace parking
     };
 
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].
+
+        A file of OMPL.app names meshes instead of a scenario. Its scenario is the file of the same name with the
+        extension .yaml, written by parking_convert.
 
         Throws parking::Error naming file and line. Reasons are an unknown section, key or planner (with the nearest
         known one), or a value out of range (with the valid range). Others are a key given twice and incompatible

@@ -8,6 +8,7 @@
 
 #include <ompl/base/samplers/BridgeTestValidStateSampler.h>
 #include <ompl/base/samplers/GaussianValidStateSampler.h>
+#include <ompl/base/samplers/MaximizeClearanceValidStateSampler.h>
 #include <ompl/base/samplers/ObstacleBasedValidStateSampler.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 
@@ -92,6 +93,8 @@ namespace parking
                                formatNumber(options.settings.threshold) + "/" + options.sampler + "/";
             if (options.settings.objective != ObjectiveKind::Unset)
                 text += toString(options.settings.objective) + "/";
+            if (options.turningRadius)
+                text += "r" + formatNumber(*options.turningRadius) + "/";
             for (const std::optional<double> &bound : {options.minX, options.minY, options.maxX, options.maxY})
                 text += (bound ? formatNumber(*bound) : "") + ",";
             for (const std::optional<Pose> &pose : {options.start, options.goal})
@@ -112,7 +115,13 @@ namespace parking
 
         Scenario readWithOptions(const std::string &file, const ProblemOptions &options)
         {
-            return readScenario(file, {options.vehicle, options.start, options.goal});
+            Scenario scenario = readScenario(file, {options.vehicle, options.start, options.goal});
+            if (options.turningRadius)
+            {
+                scenario.vehicle.maxSteeringAngle = scenario.vehicle.steeringAngle(1.0 / *options.turningRadius);
+                scenario.vehicle.validate();
+            }
+            return scenario;
         }
 
         Scenario readFor(const BenchmarkConfig &config, const std::string &file, const ProblemOptions &options)
@@ -161,19 +170,23 @@ namespace parking
             space->setBounds(bounds);
         }
 
+        template <class Sampler>
+        ob::ValidStateSamplerPtr makeSampler(const ob::SpaceInformation *si)
+        {
+            return std::make_shared<Sampler>(si);
+        }
+
         void setSampler(const Problem &problem, const std::string &name)
         {
             const ob::SpaceInformationPtr &si = problem.spaceInformation();
             if (name == "gaussian")
-                si->setValidStateSamplerAllocator([](const ob::SpaceInformation *each)
-                                                  { return std::make_shared<ob::GaussianValidStateSampler>(each); });
+                si->setValidStateSamplerAllocator(makeSampler<ob::GaussianValidStateSampler>);
             else if (name == "obstacle_based")
-                si->setValidStateSamplerAllocator(
-                    [](const ob::SpaceInformation *each)
-                    { return std::make_shared<ob::ObstacleBasedValidStateSampler>(each); });
+                si->setValidStateSamplerAllocator(makeSampler<ob::ObstacleBasedValidStateSampler>);
             else if (name == "bridge_test")
-                si->setValidStateSamplerAllocator([](const ob::SpaceInformation *each)
-                                                  { return std::make_shared<ob::BridgeTestValidStateSampler>(each); });
+                si->setValidStateSamplerAllocator(makeSampler<ob::BridgeTestValidStateSampler>);
+            else if (name == "max_clearance")
+                si->setValidStateSamplerAllocator(makeSampler<ob::MaximizeClearanceValidStateSampler>);
         }
 
         bool matches(const std::string &pattern, const std::string &scenario)
@@ -284,6 +297,13 @@ namespace parking
 
     std::vector<Experiment> planExperiments(const BenchmarkConfig &config)
     {
+        const auto world = config.problemLines.find("problem.world");
+        if (config.scenarios.empty() && world != config.problemLines.end())
+        {
+            const std::filesystem::path file = config.file;
+            throw Error(world->second + "the meshes of OMPL.app must be converted: parking_convert " + file.string() +
+                        " " + std::filesystem::path(file).replace_extension(".yaml").string());
+        }
         if (config.scenarios.empty())
             throw Error(config.file + ": no scenario; [problem] must name one, for example 'scenario = garage.yaml'");
         std::vector<Experiment> experiments;

@@ -68,11 +68,17 @@ def pose_of(file, problem, name):
     return tuple(number_of(file, problem, f'{name}.{axis}') for axis in ('x', 'y', 'theta'))
 
 
+def mesh_file(folder, name):
+    """The mesh beside the file, or in the resources of OMPL.app, whose programs search both."""
+    folders = [folder, folder / 'resources', folder.parent / 'resources']
+    return next((each / name for each in folders if (each / name).exists()), folder / name)
+
+
 def mesh_of(file, problem, key):
     """The triangles of a mesh as an array of n x 3 corners (x, y), and its mean vertex."""
     if key not in problem:
         raise Error(f'{file}: [problem] has no {key}')
-    name = str(Path(file).parent / problem[key])
+    name = str(mesh_file(Path(file).parent, problem[key]))
     content = read_file(name, LARGEST)
     try:
         triangles, vertices = Mesh(ElementTree.fromstring(content)).projection()

@@ -145,7 +145,8 @@ namespace parking
         si_->setup();  // The space has received other projections, and the old ones, which the settings would print,
                        // are deleted.
         planner_->setProblemDefinition(problem);
-        planner_->clear();
+        if (planner_->isSetup())  // PDST crashes when cleared before
+            planner_->clear();
         planner_->setup();
         planner_->solve(ptc);
 
@@ -168,7 +169,8 @@ namespace parking
     void KinodynamicPlanner::clear()
     {
         ob::Planner::clear();
-        planner_->clear();
+        if (planner_->isSetup())
+            planner_->clear();
     }
 
     void KinodynamicPlanner::getPlannerData(ob::PlannerData &data) const

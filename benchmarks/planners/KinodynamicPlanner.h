@@ -8,8 +8,8 @@
 
 namespace parking
 {
-    /** \brief A planner of OMPL's control space (RRT, SST, KPIECE) behind the interface of a geometric one, with the
-       bicycle model, to its first solution.
+    /** \brief A planner of OMPL's control space (RRT, SST, KPIECE and others) behind the interface of a geometric one,
+       with the bicycle model, to its first solution.
 
        A control is a curvature and a direction: full lock to the left, straight ahead or full lock to the right,
        forwards or in reverse. A drive with one control is an arc of the Reeds-Shepp space, so that the path is checked

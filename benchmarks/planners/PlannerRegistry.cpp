@@ -8,28 +8,52 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
+#include "state_validity/ompl/OmplPose.h"
 
+#include <ompl/control/planners/est/EST.h>
 #include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/pdst/PDST.h>
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/control/planners/sst/SST.h>
+#include <ompl/control/planners/syclop/GridDecomposition.h>
+#include <ompl/control/planners/syclop/SyclopEST.h>
+#include <ompl/control/planners/syclop/SyclopRRT.h>
+#include <ompl/geometric/planners/AnytimePathShortening.h>
+#include <ompl/geometric/planners/cforest/CForest.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/est/ProjEST.h>
+#include <ompl/geometric/planners/fmt/BFMT.h>
+#include <ompl/geometric/planners/fmt/FMT.h>
 #include <ompl/geometric/planners/informedtrees/ABITstar.h>
 #include <ompl/geometric/planners/informedtrees/AITstar.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
 #include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/pdst/PDST.h>
 #include <ompl/geometric/planners/prm/LazyPRM.h>
 #include <ompl/geometric/planners/prm/LazyPRMstar.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/prm/PRMstar.h>
+#include <ompl/geometric/planners/prm/SPARS.h>
+#include <ompl/geometric/planners/prm/SPARStwo.h>
+#include <ompl/geometric/planners/rlrt/BiRLRT.h>
+#include <ompl/geometric/planners/rlrt/RLRT.h>
+#include <ompl/geometric/planners/rrt/BiTRRT.h>
 #include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/geometric/planners/rrt/LBTRRT.h>
+#include <ompl/geometric/planners/rrt/LazyRRT.h>
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
+#include <ompl/geometric/planners/rrt/RRTsharp.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/SORRTstar.h>
+#include <ompl/geometric/planners/rrt/TRRT.h>
 #include <ompl/geometric/planners/sbl/SBL.h>
 #include <ompl/geometric/planners/sst/SST.h>
+#include <ompl/geometric/planners/stride/STRIDE.h>
 #include <ompl/util/Exception.h>
 
 // Newer than some of the supported versions of OMPL.
@@ -59,6 +83,8 @@ namespace parking
 {
     namespace
     {
+        constexpr const char *CONTROL = "control_";  ///< begins the names of planners with controls
+
         /** The significant part of a name: lower-case letters and digits, * as "star". */
         std::string keyOf(const std::string &name)
         {
@@ -70,9 +96,11 @@ namespace parking
                 else if (c != '_' && c != '-' && c != ' ')
                     key += c;
             }
-            if (key == "kpiece" || key == "bkpiece" || key == "lbkpiece")
-                key += "1";  // names in OMPL.app's files
-            return key;
+            // Names in OMPL.app's files.
+            constexpr const char *KPIECE = "kpiece";
+            if (key.size() >= 6 && key.compare(key.size() - 6, 6, KPIECE) == 0)
+                return key + "1";
+            return key == "spars2" ? "sparstwo" : key == "aps" ? "anytimepathshortening" : key;
         }
 
         template <class Planner>
@@ -85,18 +113,53 @@ namespace parking
         }
 
         /** A planner of OMPL's control space. */
-        template <class Planner>
-        PlannerEntry controlEntry(const std::string &name, const std::string &summary)
+        PlannerEntry controlEntry(const std::string &name, const std::string &summary,
+                                  const KinodynamicPlanner::Maker &make)
         {
-            return {name,
+            return {CONTROL + name,
                     summary,
                     false,
-                    [name](const ompl::base::SpaceInformationPtr &si)
-                    {
-                        return std::make_shared<KinodynamicPlanner>(
-                            si, name, [](const auto &controls) { return std::make_shared<Planner>(controls); });
-                    },
+                    [=](const ompl::base::SpaceInformationPtr &si)
+                    { return std::make_shared<KinodynamicPlanner>(si, CONTROL + name, make); },
                     {}};
+        }
+
+        template <class Planner>
+        ompl::base::PlannerPtr make(const oc::SpaceInformationPtr &si)
+        {
+            return std::make_shared<Planner>(si);
+        }
+
+        /** Squares of the plane, which a Syclop planner searches for a lead. */
+        class Squares : public oc::GridDecomposition
+        {
+        public:
+            explicit Squares(const ompl::base::SpaceInformation &si)
+              : oc::GridDecomposition(LENGTH, 2, si.getStateSpace()->as<ompl::base::SE2StateSpace>()->getBounds())
+            {
+            }
+
+            void project(const ompl::base::State *state, std::vector<double> &position) const override
+            {
+                const Pose pose = poseOf(state);
+                position = {pose.x, pose.y};
+            }
+
+            void sampleFullState(const ompl::base::StateSamplerPtr &sampler, const std::vector<double> &position,
+                                 ompl::base::State *state) const override
+            {
+                sampler->sampleUniform(state);
+                setPose(state, {position[0], position[1], poseOf(state).yaw});
+            }
+
+        private:
+            static constexpr int LENGTH = 32;  // of OMPL.app
+        };
+
+        template <class Planner>
+        ompl::base::PlannerPtr makeSyclop(const oc::SpaceInformationPtr &si)
+        {
+            return std::make_shared<Planner>(si, std::make_shared<Squares>(*si));
         }
 
 #ifdef PARKING_HAVE_AORRTC
@@ -236,6 +299,26 @@ namespace parking
         registry.add(entry<og::EST>("EST", "OMPL's EST"));
         registry.add(entry<og::BiEST>("BiEST", "OMPL's bidirectional EST"));
         registry.add(entry<og::SST>("SST", "OMPL's SST", true));
+        registry.add(entry<og::LazyRRT>("LazyRRT", "OMPL's lazy RRT"));
+        registry.add(entry<og::TRRT>("TRRT", "OMPL's T-RRT"));
+        registry.add(entry<og::BiTRRT>("BiTRRT", "OMPL's bidirectional T-RRT"));
+        registry.add(entry<og::LBTRRT>("LBTRRT", "OMPL's LBT-RRT", true));
+        // Not LazyLBTRRT, whose assertions fail.
+        registry.add(entry<og::RRTXstatic>("RRTXstatic", "OMPL's RRTX without changes of the world", true));
+        registry.add(entry<og::RRTsharp>("RRTsharp", "OMPL's RRT#", true));
+        registry.add(entry<og::SORRTstar>("SORRTstar", "OMPL's SORRT*", true));
+        registry.add(entry<og::RLRT>("RLRT", "OMPL's range-limited random tree"));
+        registry.add(entry<og::BiRLRT>("BiRLRT", "OMPL's bidirectional range-limited random tree"));
+        registry.add(entry<og::ProjEST>("ProjEST", "OMPL's EST with a projection"));
+        registry.add(entry<og::STRIDE>("STRIDE", "OMPL's STRIDE"));
+        registry.add(entry<og::PDST>("PDST", "OMPL's PDST"));
+        registry.add(entry<og::SPARS>("SPARS", "OMPL's SPARS", true));
+        registry.add(entry<og::SPARStwo>("SPARStwo", "OMPL's SPARS2", true));
+        registry.add(entry<og::FMT>("FMT", "OMPL's FMT*"));
+        registry.add(entry<og::BFMT>("BFMT", "OMPL's bidirectional FMT*"));
+        registry.add(entry<og::CForest>("CForest", "OMPL's C-FOREST of RRT* on several threads", true));
+        registry.add(entry<og::AnytimePathShortening>(
+            "AnytimePathShortening", "OMPL's shortening of RRTConnect's paths on several threads", true));
 #ifdef PARKING_HAVE_EITSTAR
         registry.add(entry<og::EITstar>("EITstar", "OMPL's EIT*", true));
 #endif
@@ -245,9 +328,13 @@ namespace parking
 #ifdef PARKING_HAVE_BLITSTAR
         registry.add(entry<og::BLITstar>("BLITstar", "OMPL's BLIT*", true));
 #endif
-        registry.add(controlEntry<oc::RRT>("control_RRT", "OMPL's RRT of controls, with the bicycle model"));
-        registry.add(controlEntry<oc::SST>("control_SST", "OMPL's SST of controls, to the first solution"));
-        registry.add(controlEntry<oc::KPIECE1>("control_KPIECE1", "OMPL's KPIECE of controls"));
+        registry.add(controlEntry("RRT", "OMPL's RRT of controls, with the bicycle model", make<oc::RRT>));
+        registry.add(controlEntry("SST", "OMPL's SST of controls, to the first solution", make<oc::SST>));
+        registry.add(controlEntry("KPIECE1", "OMPL's KPIECE of controls", make<oc::KPIECE1>));
+        registry.add(controlEntry("EST", "OMPL's EST of controls", make<oc::EST>));
+        registry.add(controlEntry("PDST", "OMPL's PDST of controls", make<oc::PDST>));
+        registry.add(controlEntry("SyclopRRT", "OMPL's Syclop with RRT", makeSyclop<oc::SyclopRRT>));
+        registry.add(controlEntry("SyclopEST", "OMPL's Syclop with EST", makeSyclop<oc::SyclopEST>));
         return registry;
     }
 
@@ -280,6 +367,12 @@ namespace parking
         if (found == entries_.end())
             throw Error(unknownName("planner", name, names()) + " (see --help)");
         return *found;
+    }
+
+    const PlannerEntry &PlannerRegistry::findWithControls(const std::string &name) const
+    {
+        const auto found = lookUp(CONTROL + name);
+        return found == entries_.end() ? find(name) : *found;
     }
 
     std::vector<std::string> PlannerRegistry::names() const

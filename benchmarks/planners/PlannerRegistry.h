@@ -52,7 +52,8 @@ namespace parking
     /** \brief The planners of the comparison by name.
 
         Names ignore case, underscores, hyphens and blanks, and read * as "star": RRTstar, rrt_star and RRT* are the
-        same planner. KPIECE1, BKPIECE1 and LBKPIECE1 are also found without the digit, as in OMPL.app's files. */
+        same planner. KPIECE1 and its variants are also found without the digit, SPARStwo as spars2 and
+        AnytimePathShortening as aps, as in OMPL.app's files. */
     class PlannerRegistry
     {
     public:
@@ -66,6 +67,9 @@ namespace parking
         /** \brief The planner of this name. Throws parking::Error with the nearest and all known names for an unknown
             one. */
         const PlannerEntry &find(const std::string &name) const;
+
+        /** \brief The planner with controls of this name, `control_` before it or not; of others the same as find(). */
+        const PlannerEntry &findWithControls(const std::string &name) const;
 
         /** \brief Names of all planners in the order of their addition. */
         std::vector<std::string> names() const;

@@ -2,6 +2,7 @@
 
 #include "benchmarks/compare/BenchmarkOptions.h"
 #include "benchmarks/config/BenchmarkConfig.h"
+#include "benchmarks/config/Experiment.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
@@ -194,18 +195,22 @@ rrt=
 
     TEST_F(BenchmarkConfigTest, SaysWhatToWriteForKeysOfOmplApp)
     {
-        const std::pair<const char *, const char *> hints[] = {{"threshold = 20", "objective.threshold"},
-                                                               {"threshold = 1e-3", "at most 0.0001"},
-                                                               {"threshold = -1", "negative"},
-                                                               {"objective.threshold = -1", "negative"},
-                                                               {"world = a.dae", "scenario = FILE"},
-                                                               {"robot = a.dae", "vehicle = NAME"},
-                                                               {"statespace = dubins", "space = "},
-                                                               {"turningradius = 5", "vehicle = NAME"},
-                                                               {"control = kinematic_car", "control_RRT="},
-                                                               {"solution_length = 1", "leave it out"},
-                                                               {"longest_valid_segment_fraction = 0.1", "leave it out"},
-                                                               {"projection.cellsize.0 = 1", "leave it out"}};
+        const std::pair<const char *, const char *> hints[] = {
+            {"threshold = 20", "objective.threshold"},
+            {"threshold = 1e-3", "at most 0.0001"},
+            {"threshold = -1", "negative"},
+            {"objective = mechanical_work", "length, driving"},
+            {"objective.threshold = -1", "negative"},
+            {"statespace = dubinssymmetric", "dubins or reedsshepp"},
+            {"statespace = reeds", "did you mean 'reedsshepp'"},
+            {"turningradius = 0", "positive"},
+            {"sampler = max_clearence", "did you mean 'max_clearance'"},
+            {"start.z = 1", "three dimensions"},
+            {"goal.axis.x = 1", "three dimensions"},
+            {"solution_length = 1", "leave it out"},
+            {"longest_valid_segment_fraction = 0.1", "leave it out"},
+            {"standard_deviation = 0.1", "leave it out"},
+            {"projection.cellsize.0 = 1", "leave it out"}};
         for (const auto &[line, hint] : hints)
         {
             const std::string key = std::string(line).substr(0, std::string(line).find(' '));
@@ -214,10 +219,58 @@ rrt=
             expectError([&] { read(std::string("[problem]\nscenario = a\n[planner]\nrrt=\nrrt.problem.") + line); },
                         {"set.cfg:5: ", key, hint});
         }
-        expectError([&] { read("[problem]\nscenario = a\n[planner]\nrrt=\nproblem.space = se2\n"); },
-                    {"set.cfg:5: ", "'problem.space'", "NAME.problem.space", "'space' in [problem]"});
-        // OMPL.app's own defaults.
-        read("[problem]\nscenario = a\nthreshold = 1e-6\nobjective.threshold = 0.0\n[planner]\nrrt=\n");
+        expectError([&] { read("[problem]\nscenario = a\ncontrol = dynamic_car\n[planner]\nrrt=\n"); },
+                    {"set.cfg:3: ", "dynamic_car", "only model is kinematic_car"});
+        for (const char *line : {"world = b.dae", "robot = b.dae", "scenario = b", "control = kinematic_car"})
+            expectError([&] { read(std::string("[problem]\nscenario = a\n[planner]\nrrt=\nproblem.") + line); },
+                        {"set.cfg:5: "});
+        expectError([&] { read("[problem]\nscenario = a\n[planner]\nproblem.space = se2\nrrt=\n"); },
+                    {"set.cfg:4: ", "'problem.space' follows no planner", "'space' in [problem]"});
+        expectError([&] { read("[problem]\nscenario = a\nstatespace = dubins\nspace = dubins\n[planner]\nrrt=\n"); },
+                    {"set.cfg:4: ", "'space' is given twice", "set.cfg:3"});
+    }
+
+    TEST_F(BenchmarkConfigTest, ReadsKeysOfOmplApp)
+    {
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\nthreshold = 1e-6\nobjective.threshold = 0.0\nstatespace = dubins\n"
+            "turningradius = 4\nsampler = max_clearance\n[benchmark]\nsave_paths = best\n[planner]\n"
+            "rrtconnect.range=50\nrrtconnect=\nrrtconnect.range=100\nspars2=\nproblem.statespace=reedsshepp\n"
+            "rrtconnect.goal_bias=1\nproblem.turningradius=5\n");
+        ASSERT_EQ(config.planners.size(), 3U);
+        EXPECT_EQ(config.savePaths, SavePaths::Shortest);
+        EXPECT_EQ(config.planners[0].settings, (PlannerSettings{{"range", "50"}}));
+        EXPECT_EQ(config.planners[0].problem.settings.space, SpaceKind::Dubins);
+        EXPECT_EQ(config.planners[0].problem.turningRadius.value_or(0.0), 4.0);
+        EXPECT_EQ(config.planners[0].problem.sampler, "max_clearance");
+        EXPECT_EQ(config.planners[1].settings, (PlannerSettings{{"range", "100"}, {"goal_bias", "1"}}));
+        EXPECT_EQ(config.planners[2].planner, "SPARStwo");
+        EXPECT_EQ(config.planners[2].problem.settings.space, SpaceKind::ReedsShepp);
+        EXPECT_EQ(config.planners[2].problem.turningRadius.value_or(0.0), 5.0);
+    }
+
+    TEST_F(BenchmarkConfigTest, WithAModelOfControlsPlannersAreThoseOfControls)
+    {
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\ncontrol = kinematic_car\n[planner]\nkpiece=\nrrt=\nrrt.step=1\nest=\npdst=\n"
+            "sycloprrt=\nsyclopest=\nsst=\ncontrol_rrt=\nimproved_astar=\n");
+        std::string names;
+        for (const PlannerSpec &spec : config.planners)
+            names += spec.planner + " ";
+        EXPECT_EQ(names,
+                  "control_KPIECE1 control_RRT control_EST control_PDST control_SyclopRRT control_SyclopEST "
+                  "control_SST control_RRT improved_astar ");
+        EXPECT_EQ(config.planners[1].settings, (PlannerSettings{{"step", "1"}}));
+    }
+
+    TEST_F(BenchmarkConfigTest, TheScenarioOfMeshesIsTheConvertedFile)
+    {
+        const std::string text = "[problem]\nworld = a.dae\nrobot = b.dae\n[planner]\nrrt=\n";
+        EXPECT_TRUE(read(text).scenarios.empty());  // another may come from the command line
+        expectError([&] { planExperiments(read(text)); },
+                    {"set.cfg:2: ", "parking_convert " + folder_.path("set.cfg") + " " + folder_.path("set.yaml")});
+        folder_.write("set.yaml", "start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: []\n");
+        EXPECT_EQ(read(text).scenarios, (std::vector<std::string>{folder_.path("set.yaml")}));
     }
 
     TEST_F(BenchmarkConfigTest, FoldersAndPatternsStandForTheirScenariosInNaturalOrder)

@@ -49,6 +49,28 @@ namespace
         return keys;
     }
 
+    TEST_F(ExperimentTest, TheTurningRadiusIsThatOfTheCar)
+    {
+        const std::vector<Experiment> experiments = planExperiments(
+            config("prm=\nrrt=\nrrt.problem.turningradius=7\n", "scenario = a.yaml\nturningradius = 4\n"));
+        ASSERT_EQ(experiments.size(), 2U);
+        EXPECT_NEAR(experiments[0].load()->scenario().vehicle.minTurningRadius(), 4.0, 1e-9);
+        EXPECT_NEAR(experiments[1].scenario().vehicle.minTurningRadius(), 7.0, 1e-9);
+        EXPECT_NE(experiments[0].digest, experiments[1].digest);
+        expectError([&] { planExperiments(config("prm=\n", "scenario = a.yaml\nturningradius = 2000\n")); },
+                    {"turns the car round a circle"});
+    }
+
+    TEST_F(ExperimentTest, SamplersAreThoseOfTheirName)
+    {
+        for (const char *name : {"gaussian", "obstacle_based", "bridge_test", "max_clearance"})
+        {
+            const auto problem =
+                planExperiments(config("prm=\n", std::string("scenario = a.yaml\nsampler = ") + name + "\n"))[0].load();
+            EXPECT_EQ(problem->spaceInformation()->allocValidStateSampler()->getName(), name);
+        }
+    }
+
     TEST_F(ExperimentTest, PlannersWithAProblemOfTheirOwnMeetInExperimentsOfTheirOwn)
     {
         const BenchmarkConfig set = config(

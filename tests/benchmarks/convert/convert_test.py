@@ -5,6 +5,7 @@ import io
 import json
 import math
 import os
+import subprocess
 import sys
 import unittest
 
@@ -404,6 +405,27 @@ class OmplAppTest(ConvertTest):
         self.write('lot.cfg', OMPLAPP.replace('[planner]', 'control = kinematic_car\n[planner]'))
         self.convert('lot.cfg', 'lot.yaml')
         self.assertAlmostEqual(ia.Scenario.read('lot.yaml').vehicle.turning_radius, math.sqrt(3.0))
+
+    def test_meshes_among_the_resources(self):
+        self.convert('lot.cfg', 'lot.yaml')
+        os.makedirs('resources/2D')
+        os.makedirs('benchmark')
+        for name in ('car.dae', 'lot.dae'):
+            os.rename(name, 'resources/2D/' + name)
+        self.write('benchmark/lot.cfg', OMPLAPP.replace('lot.dae', '2D/lot.dae').replace('car.dae', '2D/car.dae'))
+        self.convert('benchmark/lot.cfg', 'again.yaml')
+        self.assertEqual(self.read('again.yaml').replace('again', 'lot'), self.read('lot.yaml'))
+
+    def test_the_comparison_runs_with_the_converted_problem(self):
+        self.write('lot.cfg', OMPLAPP.replace('[planner]', '[benchmark]\ntime_limit = 5\nrun_count = 1\n[planner]'))
+        command = [os.environ['PARKING_BENCHMARK'], 'lot.cfg', '--no-report', '--quiet', '--output', 'out']
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ''))
+        self.assertIn('parking_convert lot.cfg lot.yaml', done.stderr)
+        self.convert('lot.cfg', 'lot.yaml')
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r'RRT +1/1')
 
     def test_meshes_that_stand_upright(self):
         self.convert('lot.cfg', 'lot.yaml')

@@ -48,7 +48,6 @@ class Configuration(InputTest):
         self.refused(planner='improved_astar.motion_model=grid8', parts=['set.cfg:9: planner', 'SE2'])  # where it is added
         self.refused(planner='RRTstar=\nRRTstar.range=far', parts=['set.cfg:11:', 'range', 'far'])
         self.refused(planner='PRM=3', parts=['set.cfg:10:', 'PRM='])
-        self.refused(planner='RRTstar.range=1', parts=['set.cfg:10:', 'RRTstar='])
         self.refused(planner='PRM=\nPRM.=3', parts=['set.cfg:11:', 'has no parameter name'])
         self.refused(planner='PRM=\nPRM.name=improved_astar', parts=['set.cfg:11:', 'already'])
         self.refused(planner='PRM=\nPRM.name=../x', parts=['set.cfg:11:', '../x'])
