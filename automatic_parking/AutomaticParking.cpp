@@ -37,6 +37,9 @@ namespace parking
         /** Expansions per gap of a search round extended obstacles, which may close the way to the goal. */
         constexpr std::uint64_t EXPANSIONS_ROUND_EXTENSIONS = 500;
 
+        /** Maximum rounds of optimising a trajectory while the car drives: of those that succeed, few take more. */
+        constexpr std::size_t ROUNDS_IN_MOTION = 2;
+
         /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
         constexpr double TIME_TO_DECIDE = 1.0;
 
@@ -266,7 +269,7 @@ namespace parking
             options.trajectory.initialSpeed = speed;
             options.alternatives = options.alternatives && !isReacting_;
             if (isReacting_)
-                options.trajectory.maxRounds = std::min<std::size_t>(options.trajectory.maxRounds, 2);
+                options.trajectory.maxRounds = std::min(options.trajectory.maxRounds, ROUNDS_IN_MOTION);
             options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,
@@ -492,10 +495,10 @@ namespace parking
                 };
                 PlanningParameters planning = parameters_.planning;
                 planning.interrupted = late;
-                // Time matters more than the last centimetres of clearance, which the trajectory keeps by itself.
+                planning.timeLimit = std::numeric_limits<double>::infinity();
+                // Time matters more than clearance, which the trajectory keeps by itself.
                 planning.clearanceCost = 0.0;
-                if (planning.gaps.size() > 4)
-                    planning.gaps.erase(planning.gaps.begin(), planning.gaps.end() - 4);
+                planning.gaps = {2.0 * parameters_.motionClearance, parameters_.motionClearance};
                 isReacting_ = true;
                 const TimedMotion &motion = leg.trajectory->trajectory.motion;
                 found = replan({motion, scenario_.vehicle, now, now + parameters_.reactionTime,
