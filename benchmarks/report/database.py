@@ -2,6 +2,7 @@
 import csv
 import dataclasses
 import functools
+import json
 import math
 import os
 import pathlib
@@ -126,7 +127,10 @@ def _judge(run, rechecked):
 
 
 def _improvements(connection):
-    """id of a run -> its improvements, from samples of the best cost at many times."""
+    """id of a run -> its improvements; of databases of OMPL from samples of the best cost at many times."""
+    if 'improvements' in (row[1] for row in connection.execute('PRAGMA table_info(details)')):
+        return {run: [tuple(map(float, each)) for each in json.loads(text)]
+                for run, text in connection.execute('SELECT runid, improvements FROM details')}
     found = {}
     if 'best_cost' in (row[1] for row in connection.execute('PRAGMA table_info(progress)')):
         for run, time, cost in connection.execute('SELECT runid, min(time), best_cost FROM progress WHERE best_cost '

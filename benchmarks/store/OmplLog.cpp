@@ -14,8 +14,6 @@ namespace parking
     {
         using Statement = Database::Statement;
 
-        const std::size_t EXPERIMENT_COLUMNS = 12;  // number of columns in OMPL's schema; further ones are properties
-
         std::string figure(const Statement &row, int column)
         {
             const SqlValue value = row.value(column);
@@ -57,20 +55,15 @@ namespace parking
             row.step();
             const std::vector<std::string> names = row.names();
             std::map<std::string, std::string> values;
-            std::vector<std::string> properties;
             for (std::size_t i = 0; i < names.size(); ++i)
-            {
                 values[names[i]] = figure(row, static_cast<int>(i));
-                if (i >= EXPERIMENT_COLUMNS)
-                    properties.push_back(names[i] + " " + row.type(static_cast<int>(i)) + " = " + values[names[i]]);
-            }
             std::string library = values["version"];
             library.insert(std::min(library.find(' '), library.size()), " version");
-            return library + "\nExperiment " + experiment + "\n" + counted(properties, "experiment properties") +
-                   "Running on " + values["hostname"] + "\nStarting at " + values["date"] + "\n<<<|\n" +
-                   values["setup"] + "|>>>\n<<<|\n" + values["cpuinfo"] + "|>>>\n" + values["seed"] +
-                   " is the random seed\n" + values["timelimit"] + " seconds per run\n" + values["memorylimit"] +
-                   " MB per run\n" + values["runcount"] + " runs per planner\n" + values["totaltime"] +
+            return library + "\nExperiment " + experiment + "\n0 experiment properties\n" + "Running on " +
+                   values["hostname"] + "\nStarting at " + values["date"] + "\n<<<|\n" + values["setup"] +
+                   "|>>>\n<<<|\n" + values["cpuinfo"] + "|>>>\n" + values["seed"] + " is the random seed\n" +
+                   values["timelimit"] + " seconds per run\n" + values["memorylimit"] + " MB per run\n" +
+                   values["runcount"] + " runs per planner\n" + values["totaltime"] +
                    " seconds spent to collect the data\n" + counted(enumerations(database), "enum types");
         }
 

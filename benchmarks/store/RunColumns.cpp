@@ -18,10 +18,10 @@ namespace parking
             {"run", Integer, "", "number of the run, from 0"},
             {"seed", Integer, "", "seed of the run's random numbers"},
 
-            {"outcome", Enum, "",
+            {"outcome", Integer, "",
              "0 exact, 1 approximate, 2 time limit, 3 invalid start, 4 invalid goal, 5 infeasible: search "
              "exhausted; failures of the planner: 6 exception, 7 crash, 8 hang, 9 memory limit, 10 invalid "
-             "answer; the table `enums` has the names"},
+             "answer; the table `outcomes` has the names"},
             {"success", Boolean, "", "exact, valid in the second check, and in time"},
             {"late", Boolean, "",
              "the first solution came more than 0.05 s after the limit (some planners of OMPL check the clock "

@@ -20,11 +20,14 @@ namespace parking
 {
     namespace
     {
-        constexpr std::int64_t FORMAT = 3;        // version of the tables
-        constexpr double PROGRESS_STEP = 0.05;    // seconds between samples of the best cost
+        constexpr std::int64_t FORMAT = 4;        // version of the tables
+        constexpr int SAMPLES = 100;              // of the best cost of a run; Planner Arena crashes with few
+        constexpr double BRIEF = 0.01;            // share of a run after its first solution that is none
         const std::string PREFIX = "geometric_";  // prefix of planners' names in OMPL's benchmark
 
-        /** The tables have OMPL's columns; views replace OMPL's tables of experiments, planners and runs. */
+        /** The tables have OMPL's columns; views replace OMPL's tables of experiments, planners and runs. Planner Arena
+            takes further columns of experiments for parameters of the problem, and draws the column status for each
+            enumeration. */
         const char *const TABLES = R"(
             CREATE TABLE all_experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
                 totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER,
@@ -33,6 +36,7 @@ namespace parking
             CREATE TABLE all_plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT,
                 name VARCHAR(512) NOT NULL, settings TEXT);
             CREATE TABLE enums (name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
+            CREATE TABLE outcomes (value INTEGER PRIMARY KEY, name TEXT);
             CREATE TABLE all_runs (id INTEGER PRIMARY KEY AUTOINCREMENT,
                 experimentid INTEGER REFERENCES all_experiments(id) ON DELETE CASCADE,
                 plannerid INTEGER REFERENCES all_plannerConfigs(id) ON DELETE CASCADE,
@@ -42,11 +46,12 @@ namespace parking
             CREATE TABLE progress (runid INTEGER REFERENCES all_runs(id) ON DELETE CASCADE, time REAL, best_cost REAL,
                 PRIMARY KEY (runid, time));
             CREATE TABLE details (runid INTEGER PRIMARY KEY REFERENCES all_runs(id) ON DELETE CASCADE,
-                fingerprint TEXT, reason TEXT, path TEXT);
+                fingerprint TEXT, reason TEXT, improvements TEXT, path TEXT);
             CREATE TABLE selection (fingerprint TEXT PRIMARY KEY, count INTEGER);
             CREATE VIEW runs AS SELECT all_runs.* FROM all_runs JOIN details ON runid = all_runs.id
                 JOIN selection ON selection.fingerprint = details.fingerprint WHERE all_runs.run < count;
-            CREATE VIEW experiments AS SELECT * FROM all_experiments
+            CREATE VIEW experiments AS SELECT id, name, totaltime, timelimit, memorylimit, runcount, version, hostname,
+                cpuinfo, date, seed, setup FROM all_experiments
                 WHERE EXISTS (SELECT 1 FROM runs WHERE experimentid = all_experiments.id);
             CREATE VIEW plannerConfigs AS SELECT * FROM all_plannerConfigs
                 WHERE EXISTS (SELECT 1 FROM runs WHERE plannerid = all_plannerConfigs.id);)";
@@ -138,23 +143,33 @@ namespace parking
             return parameters;
         }
 
-        /** Cost over time for Planner Arena: at regular times and at each improvement. */
-        std::map<double, SqlValue> progressOf(const RunRecord &record)
+        /** Cost over time for Planner Arena: at regular times between the first solution and the end. Planners that end
+            with their first solution have none. */
+        std::map<double, double> progressOf(const RunRecord &record)
         {
-            std::map<double, SqlValue> costs;
-            const double total = record.number("time");
-            for (int i = 1; i * PROGRESS_STEP <= total; ++i)
-                costs[i * PROGRESS_STEP] = nullptr;
-            for (const Improvement &each : record.progress)
-                costs[each.time] = each.cost;
-            SqlValue last = nullptr;
-            for (auto &[time, cost] : costs)
+            std::map<double, double> costs;
+            if (record.progress.empty())
+                return costs;
+            const double first = record.progress.front().time, total = record.number("time");
+            if (!(total - first > BRIEF * total))
+                return costs;
+            std::size_t last = 0;
+            for (int i = 0; i < SAMPLES; ++i)
             {
-                if (std::holds_alternative<std::nullptr_t>(cost))
-                    cost = last;
-                last = cost;
+                const double time = first + i * (total - first) / (SAMPLES - 1);
+                while (last + 1 < record.progress.size() && record.progress[last + 1].time <= time)
+                    ++last;
+                costs[time] = record.progress[last].cost;
             }
             return costs;
+        }
+
+        json improvementsOf(const RunRecord &record)
+        {
+            json list = json::array();
+            for (const Improvement &each : record.progress)
+                list.push_back({each.time, each.cost});
+            return list;
         }
 
         void requireFormat(const Database &database)
@@ -170,18 +185,16 @@ namespace parking
                                         const std::vector<SqlValue> &values)
         {
             std::vector<RunRecord> runs;
-            Database::Statement steps(database,
-                                      "SELECT time, best_cost FROM progress WHERE runid = ? AND best_cost IS "
-                                      "NOT NULL ORDER BY time");
             Database::Statement rows(
                 database,
-                "SELECT runs.id, e.name, p.name, p.settings, details.fingerprint, details.reason, details.path, runs.* "
+                "SELECT runs.id, e.name, p.name, p.settings, details.fingerprint, details.reason, details.path, "
+                "details.improvements, runs.* "
                 "FROM runs JOIN all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
                 "JOIN details ON details.runid = runs.id WHERE " +
                     condition + " ORDER BY e.name, p.name, runs.run",
                 values);
             const std::vector<std::string> names = rows.names();
-            const int first = 10, end = static_cast<int>(names.size());  // columns after those and the three ids
+            const int first = 11, end = static_cast<int>(names.size());  // columns after those and the three ids
             while (rows.step())
             {
                 RunRecord &record = runs.emplace_back();
@@ -190,13 +203,10 @@ namespace parking
                 record.parameters = parametersFrom(rows.text(3));
                 record.fingerprint = rows.text(4);
                 record.reason = rows.text(5);
-                steps.bind({rows.number(0)});
-                while (steps.step())
-                    if (const double cost = steps.real(1);
-                        record.progress.empty() || cost < record.progress.back().cost)
-                        record.progress.push_back({steps.real(0), cost});
                 try
                 {
+                    for (const json &each : json::parse(rows.text(7)))
+                        record.progress.push_back({each.at(0), each.at(1)});
                     for (int i = first; i < end; ++i)
                         setFigure(record, names[i], rows.type(i), rows.value(i));
                     if (const std::string path = rows.text(6); !path.empty())
@@ -231,15 +241,14 @@ namespace parking
         }
         database_.run("BEGIN IMMEDIATE");
         database_.run(TABLES);
-        const auto addNames = [this](const char *type, std::size_t count, const auto &nameOf)
-        {
-            for (std::size_t i = 0; i < count; ++i)
-                insert("enums", {{"name", type}, {"value", static_cast<std::int64_t>(i)}, {"description", nameOf(i)}});
-        };
         using Status = ompl::base::PlannerStatus;
-        addNames("status", Status::TYPE_COUNT,
-                 [](std::size_t i) { return Status(static_cast<Status::StatusType>(i)).asString(); });
-        addNames("outcome", PLAN_STATUSES, [](std::size_t i) { return toString(static_cast<PlanStatus>(i)); });
+        for (std::int64_t i = 0; i < Status::TYPE_COUNT; ++i)
+            insert("enums", {{"name", "status"},
+                             {"value", i},
+                             {"description", Status(static_cast<Status::StatusType>(i)).asString()}});
+        for (std::size_t i = 0; i < PLAN_STATUSES; ++i)
+            insert("outcomes",
+                   {{"value", static_cast<std::int64_t>(i)}, {"name", toString(static_cast<PlanStatus>(i))}});
         database_.run("PRAGMA user_version = " + std::to_string(FORMAT));
         database_.run("COMMIT");
     }
@@ -392,6 +401,7 @@ namespace parking
         insert("details", {{"runid", id},
                            {"fingerprint", record.fingerprint},
                            {"reason", record.reason},
+                           {"improvements", improvementsOf(record).dump()},
                            {"path", record.hasPath ? SqlValue(path.dump()) : SqlValue(nullptr)}});
         if (const double time = record.number("time"); time > 0.0)
             database_.valueOf("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
@@ -458,7 +468,7 @@ namespace parking
         const Database database(file, Database::Access::Read);
         requireFormat(database);
         StoredRuns stored{{}, readRuns(database, "1", {})};
-        Database::Statement rows(database, "SELECT * FROM experiments");
+        Database::Statement rows(database, "SELECT * FROM all_experiments WHERE id IN (SELECT id FROM experiments)");
         const std::vector<std::string> names = rows.names();
         while (rows.step())
             for (std::size_t i = 0; i < names.size(); ++i)

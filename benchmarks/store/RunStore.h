@@ -31,7 +31,8 @@ namespace parking
         Rows are never removed. The tables all_experiments, all_plannerConfigs and all_runs contain everything measured.
         The views experiments, plannerConfigs and runs, which are those of OMPL's ompl_benchmark_statistics, show the
         selected runs. Readers of such databases (Planner Arena) thus see only the last comparison. The table details
-        contains the fingerprint, the failure reason and the path of each run. */
+        contains the fingerprint, the failure reason, the improvements and the path of each run, and progress samples of
+        its best cost if it continued after its first solution. */
     class RunStore
     {
     public:

@@ -235,8 +235,25 @@ namespace
         store.select({"1", "2"}, 10);
         EXPECT_TRUE(store.has("garage", "b", 1));
         EXPECT_FALSE(store.has("garage", "b", 0));
-        // Of a run that took 0.25 s: at regular times, which the improvements happen to be.
-        EXPECT_EQ(std::get<std::int64_t>(store.database().valueOf("SELECT COUNT(*) FROM progress WHERE runid = 1")), 5);
+        // From the first solution at 0.1 s to the end at 0.25 s; the second one came at 0.2 s.
+        const auto count = [&store](const std::string &condition)
+        {
+            return std::get<std::int64_t>(store.database().valueOf("SELECT COUNT(*) FROM progress WHERE " + condition));
+        };
+        EXPECT_EQ(count("runid = 1"), 100);
+        EXPECT_EQ(count("runid = 1 AND best_cost = CASE WHEN time < 0.2 THEN 20.0 ELSE 15.0 END"), 100);
+        EXPECT_EQ(count("runid = 1 AND (time = 0.1 OR time = 0.25)"), 2);
+        EXPECT_EQ(count("runid = 3"), 0);
+    }
+
+    TEST_F(RunStoreTest, PlannersThatEndWithTheirFirstSolutionHaveNoProgress)
+    {
+        RunRecord record = recordOf("a", 0);
+        record.progress = {{0.249, 20.0}};
+        add({record});
+        EXPECT_EQ(RunStore::readFile(file_).records[0].progress.size(), 1U);
+        const RunStore store(file_);
+        EXPECT_EQ(std::get<std::int64_t>(store.database().valueOf("SELECT COUNT(*) FROM progress")), 0);
     }
 
     TEST_F(RunStoreTest, NamesOfPlannersFiguresAreOnlyNames)

@@ -46,9 +46,9 @@ class IsolationTest(ProgramTest):
         """What the database says: planner -> set of names of outcomes."""
         found = {}
         for planner, outcome in self.query('out/benchmark.db', '''
-                SELECT plannerConfigs.name, enums.description FROM runs
+                SELECT plannerConfigs.name, outcomes.name FROM runs
                 JOIN plannerConfigs ON plannerid = plannerConfigs.id
-                JOIN enums ON enums.name = 'outcome' AND enums.value = outcome'''):
+                JOIN outcomes ON outcomes.value = outcome'''):
             found.setdefault(planner.replace('geometric_', ''), []).append(outcome)
         return found
 

@@ -73,11 +73,8 @@ class ProgramTest(unittest.TestCase):
             with closing(sqlite3.connect(self.path(database))) as connection:
                 connection.row_factory = sqlite3.Row
                 costs = {}
-                for run, cost in connection.execute('SELECT runid, best_cost FROM progress WHERE best_cost IS NOT NULL '
-                                                    'ORDER BY runid, time'):
-                    steps = costs.setdefault(run, [])
-                    if not steps or cost < steps[-1]:
-                        steps.append(cost)
+                for run, improvements in connection.execute('SELECT runid, improvements FROM details'):
+                    costs[run] = [cost for _, cost in json.loads(improvements)]
                 for row in connection.execute('''
                         SELECT experiments.name AS experiment, plannerConfigs.name AS planner, settings, details.*, runs.*
                         FROM runs JOIN experiments ON experimentid = experiments.id
