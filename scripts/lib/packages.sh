@@ -5,8 +5,8 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing; report: for the report of a comparison; test, docs, package, page, fuzz: only
-# for tests, reference, ... | what for
+# package | build: for building and comparing; report: for the report of a comparison; test, docs, package, page, fuzz, tidy:
+# only for tests, reference, ... | what for
 packages()
 {
     cat <<'LIST'
@@ -56,6 +56,7 @@ emscripten                   | page  | compiles the core for browsers (800 MB)
 node-js-yaml                 | page  | js-yaml: reads scenarios in the page
 clang                        | fuzz  | builds what scripts/fuzz runs, instrumented
 libclang-rt-dev              | fuzz  | libFuzzer and clang's sanitizers
+clang-tidy                   | tidy  | checks the sources for likely bugs
 LIST
 }
 

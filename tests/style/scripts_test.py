@@ -169,6 +169,20 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertNotIn('Compared', done.stdout)
 
+    def test_findings_of_clang_tidy_fail(self):
+        self.replace('cmake', 'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; fi')
+        self.replace('run-clang-tidy', 'echo "clang-tidy-14 -p=build a.cpp"; echo "$FOUND"; exit "$STATUS"')
+        for folder in ('build/tidy', 'python'):
+            os.makedirs(os.path.join(self.project, folder))
+        for found, status, said in (('', 0, 'PASSED'), ('a.cpp:1:1: error: a bug', 1, 'FAILED')):
+            done = self.run_script('tidy', 'python/', FOUND=found, STATUS=str(status))
+            self.assertEqual((done.returncode, done.stderr), (status, ''))
+            self.assertIn(said, done.stdout)
+            self.assertIn(found, done.stdout)
+            self.assertNotIn('a.cpp\n', done.stdout)
+        done = self.run_script('tidy', 'nowhere')
+        self.assertEqual((done.returncode, done.stderr), (2, f'tidy: no folder nowhere below {self.project}\n'))
+
     def test_headlines_are_bold_on_terminals_with_colours_only(self):
         command = ['bash', '-c', f'source {ROOT}/scripts/lib/common.sh; say done; say "FAILED: it"']
         for changes, wanted in (({}, '\033[1m==> done\033[0m\n\033[1;31m==> FAILED: it\033[0m\n'),

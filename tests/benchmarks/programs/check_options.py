@@ -16,7 +16,7 @@ PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_que
 # Of other programs than these (cmake, pip, Slurm, ...) a document may say what it likes.
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
            'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/results', 'scripts/soak', 'scripts/test',
-           'scripts/try-in-bare-root',
+           'scripts/tidy', 'scripts/try-in-bare-root',
            'benchmarks/report/make_report', 'benchmarks/results/make_results', 'benchmarks/paper/make_maps']
 MAX_WIDTH = 100  # characters
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
