@@ -429,6 +429,8 @@ def test_parameters_are_those_of_the_table():
     many = ia.plan(scenario('parallel'), gear_change_penalty=0.0)
     assert few.parameters['gear_change_penalty'] == 50.0 and few.cusps <= many.cusps
     assert ia.plan(behind_the_wall(), parameter_set='hybrid_astar').parameters['adaptive_resolution'] is False
+    for name in ('paper_improved_astar', 'improved_astar'):  # the latter is an alias
+        assert ia.plan(behind_the_wall(), parameter_set=name).parameters['parameter_set'] == 'paper_improved_astar'
 
 
 def test_signals_of_the_past_do_not_disturb():
