@@ -151,7 +151,7 @@ def _scenarioOf(si: ob.SpaceInformation, world: Any, vehicle: Any, resolution: A
 
 
 class FootprintChecker(ob.StateValidityChecker):
-    """Validity checker for any OMPL planner: the car's rectangle must be free of obstacles.
+    """Validity checker for any OMPL planner: the body of the car must be free of obstacles.
 
     world: a Scenario; or, with a vehicle, a list of polygons (each n rows x, y) or a map (an array or a file as for
     Scenario.from_grid).
