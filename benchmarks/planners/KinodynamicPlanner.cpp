@@ -1,5 +1,6 @@
 #include "benchmarks/planners/KinodynamicPlanner.h"
 
+#include "benchmarks/planners/InputStates.h"
 #include "benchmarks/planners/RangedParameter.h"
 #include "parking_geometry/Pose.h"
 #include "state_validity/ompl/CurveSpace.h"
@@ -105,12 +106,12 @@ namespace parking
             throw ompl::Exception(getName(), "plans in a Reeds-Shepp space only");
         pis_.restart();
         auto problem = std::make_shared<ob::ProblemDefinition>(controls_);
-        while (const ob::State *start = pis_.nextStart())
+        for (const ob::State *start : startsOf(pis_))
             problem->addStartState(start);
         if (problem->getStartStateCount() == 0)
             return ob::PlannerStatus::INVALID_START;
         auto goal = std::make_shared<WithinReach>(si_, goalReach_);
-        for (const ob::State *state = pis_.nextGoal(ptc); state != nullptr; state = pis_.nextGoal())
+        for (const ob::State *state : goalsOf(pis_, ptc))
             goal->addState(state);
         if (!goal->hasStates())
             return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;

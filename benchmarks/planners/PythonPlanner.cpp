@@ -1,5 +1,6 @@
 #include "benchmarks/planners/PythonPlanner.h"
 
+#include "benchmarks/planners/InputStates.h"
 #include "benchmarks/planners/SolveRecord.h"
 #include "benchmarks/system/ScriptFile.h"
 #include "parking_geometry/Error.h"
@@ -28,7 +29,6 @@ namespace parking
     {
         constexpr double LONGEST_IMPORT = 60.0;  // seconds until a module is loaded
         constexpr double AT_GOAL = 1e-4;         // metres and radians: tolerance of the referee
-        constexpr std::size_t MAX_GOALS = 64;    // of a region that samples ever more goals
 
         using States = std::vector<const ob::State *>;
         using Stop = ExternalProgram::Stop;
@@ -191,11 +191,9 @@ namespace parking
         const ob::State *start = pis_.nextStart();
         if (start == nullptr)
             return ob::PlannerStatus::INVALID_START;
-        States goals;
-        while (const ob::State *goal = goals.size() < MAX_GOALS ? pis_.nextGoal() : nullptr)
-            goals.push_back(goal);
-        if (goals.empty())
-            return ob::PlannerStatus::INVALID_GOAL;
+        const States goals = goalsOf(pis_, ptc);
+        if (goals.empty())  // No goal is free, or there was no time to sample one.
+            return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
         if (!program_)
             this->start();
         const std::unique_ptr<ExternalProgram> program = std::move(program_);  // ends with solve()

@@ -1,5 +1,7 @@
 #include "benchmarks/planners/ReedsSheppPlanner.h"
 
+#include "benchmarks/planners/InputStates.h"
+
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/geometric/PathGeometric.h>
 
@@ -11,11 +13,6 @@ namespace ob = ompl::base;
 
 namespace parking
 {
-    namespace
-    {
-        constexpr std::size_t MAX_GOALS = 64;  // of a region that samples ever more goals
-    }                                          // namespace
-
     ReedsSheppPlanner::ReedsSheppPlanner(const ob::SpaceInformationPtr &si) : ob::Planner(si, "ReedsShepp")
     {
         specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
@@ -28,18 +25,10 @@ namespace parking
         if (dynamic_cast<const ob::GoalSampleableRegion *>(pdef_->getGoal().get()) == nullptr)
             return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
         pis_.restart();
-        std::vector<const ob::State *> starts, goals;
-        while (const ob::State *start = pis_.nextStart())
-            starts.push_back(start);
+        const std::vector<const ob::State *> starts = startsOf(pis_);
         if (starts.empty())
             return ob::PlannerStatus::INVALID_START;
-        while (goals.size() < MAX_GOALS && !ptc)
-        {
-            const ob::State *goal = goals.empty() ? pis_.nextGoal(ptc) : pis_.nextGoal();
-            if (goal == nullptr)
-                break;
-            goals.push_back(goal);
-        }
+        const std::vector<const ob::State *> goals = goalsOf(pis_, ptc);
         if (goals.empty())  // No goal is free, or there was no time to sample one.
             return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
 

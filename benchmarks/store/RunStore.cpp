@@ -22,7 +22,7 @@ namespace parking
     {
         constexpr std::int64_t FORMAT = 4;        // version of the tables
         constexpr int SAMPLES = 100;              // of the best cost of a run; Planner Arena crashes with few
-        constexpr double BRIEF = 0.01;            // share of a run after its first solution that is none
+        constexpr double BRIEF = 0.01;            // seconds after the first solution that show no progress
         const std::string PREFIX = "geometric_";  // prefix of planners' names in OMPL's benchmark
 
         /** The tables have OMPL's columns; views replace OMPL's tables of experiments, planners and runs. Planner Arena
@@ -151,7 +151,7 @@ namespace parking
             if (record.progress.empty())
                 return costs;
             const double first = record.progress.front().time, total = record.number("time");
-            if (!(total - first > BRIEF * total))
+            if (!(total - first > BRIEF))
                 return costs;
             std::size_t last = 0;
             for (int i = 0; i < SAMPLES; ++i)
