@@ -212,7 +212,7 @@ namespace parking
                 else if (message.contains("path"))
                     isDone = !message["path"].is_null() && addPath(message["path"], goals);
                 else
-                    isDone = !program->send(json{{"answer", answer(message)}}.dump(), stop);
+                    isDone = !program->send(json{{"answer", answer(message, stop)}}.dump(), stop);
             }
         }
         catch (const Error &error)
@@ -247,26 +247,28 @@ namespace parking
                 {"parameters", parameters_}};
     }
 
-    json PythonPlanner::answer(const json &question) const
+    json PythonPlanner::answer(const json &question, const ExternalProgram::Stop &stop) const
     {
         ob::ScopedState<> from(si_), to(si_);
         json answers = json::array();
         const std::string &kind = question.begin().key();
         for (const json &each : question.front())
+        {
+            if (stop())
+                break;
             if (kind == "is_free")
             {
                 setPose(from.get(), poseFrom(each));
                 answers.push_back(si_->isValid(from.get()));
+                continue;
             }
+            setPose(from.get(), poseFrom(each.at(0)));
+            setPose(to.get(), poseFrom(each.at(1)));
+            if (kind == "distance")
+                answers.push_back(si_->distance(from.get(), to.get()));
             else
-            {
-                setPose(from.get(), poseFrom(each.at(0)));
-                setPose(to.get(), poseFrom(each.at(1)));
-                if (kind == "distance")
-                    answers.push_back(si_->distance(from.get(), to.get()));
-                else
-                    answers.push_back(si_->isValid(from.get()) && si_->checkMotion(from.get(), to.get()));
-            }
+                answers.push_back(si_->isValid(from.get()) && si_->checkMotion(from.get(), to.get()));
+        }
         return answers;
     }
 

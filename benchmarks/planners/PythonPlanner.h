@@ -59,7 +59,7 @@ namespace parking
         void start();
         nlohmann::json problem(const ompl::base::State *start,
                                const std::vector<const ompl::base::State *> &goals) const;
-        nlohmann::json answer(const nlohmann::json &question) const;
+        nlohmann::json answer(const nlohmann::json &question, const ExternalProgram::Stop &stop) const;
         bool addPath(const nlohmann::json &poses, const std::vector<const ompl::base::State *> &goals);
 
         std::string file_;

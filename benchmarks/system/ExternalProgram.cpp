@@ -75,6 +75,8 @@ namespace parking
     {
         for (std::size_t searched = 0;;)
         {
+            if (stop())
+                return std::nullopt;
             if (const std::size_t end = received_.find('\n', searched); end != std::string::npos)
             {
                 std::string line = received_.substr(0, end);
@@ -84,8 +86,6 @@ namespace parking
             searched = received_.size();
             if (searched > LONGEST_LINE)
                 throw Error("its answer is too long");
-            if (stop())
-                return std::nullopt;
             pollfd end{socket_, POLLIN, 0};
             poll(&end, 1, WAIT);
             std::array<char, 65536> buffer;

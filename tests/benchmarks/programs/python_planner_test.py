@@ -95,6 +95,16 @@ def plan(problem):
         self.assertEqual(len(run['progress']), 2)
         self.assertLess(run['figures']['first solution time'], 0.9)
 
+    def test_floods_end_in_time(self):
+        for body, found in (('while True:\n        yield [problem.start, problem.goals[0]]', 'exact'),
+                            ('while True:\n        problem.is_free([problem.start] * 1000000)', 'timeout')):
+            with self.subTest(body):
+                begin = time.monotonic()
+                result = self.outcome('def plan(problem):\n    ' + body + '\n', limit=2,
+                                      status={'exact': 0, 'timeout': 4}[found])
+                self.assertEqual(result['status'], found)
+                self.assertLess(time.monotonic() - begin, 60.0)
+
     def test_hanging_planners_are_killed_with_their_children(self):
         text = '''import subprocess
 import sys
