@@ -1,4 +1,4 @@
-"""The database of a comparison in the real Planner Arena, which is installed from its package: every plot is made.
+"""The database of a comparison in the real Planner Arena, in an environment of its own: every plot is made.
 
 usage: planner_arena_test.py PARKING_BENCHMARK SCENARIOS FOLDER, which keeps the installation
 """
@@ -26,10 +26,13 @@ BITstar=
 
 
 def installed(folder):
-    """The interpreter of an environment with the package; None if there is none and no registry is reachable."""
+    """The interpreter of an environment with the package; None without one, unless it may and can be made."""
     python = os.path.join(folder, 'bin', 'python')
     if os.path.exists(python) and subprocess.run([python, '-c', 'import plannerarena'], check=False).returncode == 0:
         return python
+    if os.environ.get('PARKING_PLANNER_ARENA') != '1':
+        print(f'skipped: with PARKING_PLANNER_ARENA=1 it installs {PACKAGE}, which takes 1 GB')
+        return None
     for command in ([sys.executable, '-m', 'venv', folder], [python, '-m', 'pip', 'install', '--quiet', PACKAGE]):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
