@@ -37,8 +37,9 @@ namespace parking
         /** Expansions per gap of a search round extended obstacles, which may close the way to the goal. */
         constexpr std::uint64_t EXPANSIONS_ROUND_EXTENSIONS = 500;
 
-        /** Maximum rounds of optimising a trajectory while the car drives: of those that succeed, few take more. */
-        constexpr std::size_t ROUNDS_IN_MOTION = 2;
+        /** Rounds of optimising a trajectory while the car drives: further ones seldom succeed where the first fails.
+         */
+        constexpr std::size_t ROUNDS_IN_MOTION = 1;
 
         /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
         constexpr double TIME_TO_DECIDE = 1.0;

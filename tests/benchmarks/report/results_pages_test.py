@@ -151,7 +151,7 @@ class Pages(made_results.FolderTest):
         self.write('checks/checks.json', {'benchmarks': each})
         self.write('troubles/troubles.md', '| trouble | drives | parked | stopped, touching nothing | could be avoided '
                    '| and was hit | anything else was hit |\n|---|--:|--:|--:|--:|--:|--:|\n| none | 9 | 8 | 1 | 3 | 0 | 0 |\n')
-        columns = ('car', 'drives', 'parked', 'hits', 'inevitable hits', 'stops', 'new motions', 'changes of mind',
+        columns = ('car', 'drives', 'parked', 'avoidable hits', 'other hits', 'stops', 'new motions', 'changes of mind',
                    'time, median', '90 %', 'check, ms', 'with a new motion, ms')
         cells = ('reacts in motion', '9', '8', '0', '1', '2', '3', '4', '1.1', '1.3', '1 / 2 / 3', '4 / 5 / 6')
         self.write('perceived/perceived.md', f'| {" | ".join(columns)} |\n|---|{12 * "--:|"}\n| {" | ".join(cells)} |\n\n'
