@@ -20,7 +20,7 @@ SCENARIOS = os.path.join(ROOT, 'benchmarks', 'scenarios')
 PROGRAMS = 'build/release/benchmarks/'  # as a reader calls them
 PLANNED = (0, 3, 4)  # statuses of parking_plan with a result, even without a path
 PARKBENCH_CARS = ('toyota_yaris', 'vw_golf8', 'mercedes_s_w223')  # small, medium, large
-PERCEIVED = ('parked_rows', 'streets', 'multi_storey', 'large_lot', 'angled_lot', 'careless_lot')  # kinds of queries
+PERCEIVED = ('parked_rows', 'streets', 'multi_storey', 'large_lot', 'angled_lot', 'careless_lot')  # kinds of worlds
 DRIVEN = ('angled45', 'parallel', 'perpendicular', 'dead_end_aisle')  # with trouble
 
 
@@ -119,10 +119,14 @@ def steps_of(raw, programs, amount, data):
     yield Step('troubles', 'drives that meet trouble', f'{PROGRAMS}troubled_drives {named} {" ".join(options)}',
                [Job([program('troubled_drives'), *driven, *options], at('troubles', 'troubles.md'), True, (0, 1))],
                inputs=driven)
-    options = ['--drives', str(amount.perceived)]
-    driven = [file for file in scenario_files(queries)
-              if os.path.basename(file).startswith(PERCEIVED)]  # places where cars park
-    yield Step('perceived', 'drives by a sensor', f'{PROGRAMS}perceived_drives queries/{{{",".join(PERCEIVED)}}}* {" ".join(options)}',
+    # On a map of cells of 10 cm a goal must keep some distance.
+    wide, options = at('perceived-queries', 'set'), ['--margin', '0.15', *count]
+    for kind in PERCEIVED:
+        options += ['--kind', kind]
+    yield Step('perceived-queries', 'queries of drives by a sensor', ' '.join([f'{PROGRAMS}parking_queries --output wide', *options]),
+               [Job([program('parking_queries'), '--output', wide, *options], os.path.join(wide, 'index.json'))])
+    driven, options = scenario_files(wide), ['--drives', str(amount.perceived)]
+    yield Step('perceived', 'drives by a sensor', f'{PROGRAMS}perceived_drives wide/*.yaml {" ".join(options)}',
                [Job([program('perceived_drives'), *driven, *options], at('perceived', 'perceived.md'), True, (0, 1))],
                inputs=driven)
     yield Step('checks', 'footprint checks', f'{PROGRAMS}validity_benchmark {shlex.join(amount.checks)}',

@@ -144,7 +144,7 @@ class Pages(made_results.FolderTest):
         self.assertEqual(self.rows(made['docs/results/trajectories.md'])['a'][1:3], ['10.0', '25.0'])
 
     def test_checks_troubles_and_termination(self):
-        for name in ('checks', 'troubles', 'perceived', 'termination'):
+        for name in ('checks', 'troubles', 'perceived-queries', 'perceived', 'termination'):
             self.step(name)
         each = [{'name': f'stateCheck/grid/mixed/{tier}', 'cpu_time': time, 'time_unit': unit}
                 for tier, time, unit in (('plain_fcl', 0.2, 'us'), ('two_tier', 40.0, 'ns'))]
