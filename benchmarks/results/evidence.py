@@ -86,13 +86,14 @@ class Comparison:
         self.best = {problem: min(run.length for run in results.runs if run.problem == problem) for problem in self.problems}
 
     def refusals(self, problem):
-        """Which planners refuse a problem without a solution in every run, and after which median time."""
-        refusing = []
+        """How many planners refuse a problem without a solution in every run, and after which median times."""
+        refusing = {}
         for planner in self.planners:
             runs = self.results.of(problem, planner)
             if runs and all(map(self.results.is_refusal, runs)):
-                refusing.append(f'{planner} after {shown_time(median([run.figure("planning time") for run in runs]))}')
-        return f'{problem}, refused in every run by ' + (', '.join(refusing) or 'no planner')
+                refusing[planner] = median([run.figure('planning time') for run in runs])
+        span = ' to '.join(dict.fromkeys(shown_time(pick(refusing.values())) for pick in (min, max) if refusing))
+        return f'{problem}, refused in every run by {len(refusing)} planner{"s" if len(refusing) != 1 else ""}{span and " after " + span}'
 
     def runs(self, planner):
         return [run for problem in self.problems for run in self.results.of(problem, planner)]

@@ -81,7 +81,7 @@ def comparison_rows(comparison):
 
 
 def ahead(comparison):
-    """Where others are ahead of us."""
+    """Where others are ahead of us, on more than one problem in ten."""
     said = []
     for planner in comparison.planners:
         if planner in (OURS, 'improved_astar_anytime') or not comparison.common(planner):
@@ -90,10 +90,10 @@ def ahead(comparison):
         parts = [f'earlier on {len(earlier)}'] if earlier else []
         if shorter:
             parts.append(f'shorter on {len(shorter)} (by {100.0 * shorter[0][0]:.0f} % on `{shorter[0][1]}`)')
-        if parts:
+        if 10 * max(len(earlier), len(shorter)) > len(comparison.common(planner)):
             said.append(f'{planner} {" and ".join(parts)} of {len(comparison.common(planner))}')
     unsolved = [problem for problem in comparison.problems if not math.isfinite(comparison.middle(problem, OURS, 'time'))]
-    text = f'Ahead of `{OURS}` on problems in common: ' + ('; '.join(said) if said else 'none') + '.'
+    text = f'Ahead of `{OURS}` on a tenth of the problems in common or more: ' + ('; '.join(said) if said else 'none') + '.'
     return text + (' It leaves unsolved: ' + ', '.join(f'`{name}`' for name in unsolved) + '.' if unsolved else '')
 
 

@@ -85,8 +85,8 @@ class Pages(made_results.FolderTest):
                      record('b', 'RRTstar', 0, 'none', solvable=False), record('c', 'RRTstar', 0, 'none', solvable=True),
                      record('a', 'RRTstar', 0, 'solved', 0.1, 11.0, solvable=True))
         page = self.made()[0]['docs/results.md']
-        self.assertIn('Without a solution: b, refused in every run by improved_astar after 3.00 ms. Left out, since no planner '
-                      'solves it: c.', page)
+        self.assertIn('Without a solution: b, refused in every run by 1 planner after 3.00 ms. Left out, since '
+                      'no planner solves it: c.', page)
 
     def test_where_others_are_ahead_is_said(self):
         self.compare(record('a', 'improved_astar', 0, 'solved', 0.02, 10.0), record('a', 'PRM', 0, 'solved', 0.01, 9.0),
