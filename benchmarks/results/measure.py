@@ -121,12 +121,11 @@ def steps_of(raw, programs, amount, data):
                inputs=driven)
     # On a map of cells of 10 cm a goal must keep some distance.
     wide, options = at('perceived-queries', 'set'), ['--margin', '0.15', *count]
-    for kind in PERCEIVED:
-        options += ['--kind', kind]
     yield Step('perceived-queries', 'queries of drives by a sensor', ' '.join([f'{PROGRAMS}parking_queries --output wide', *options]),
                [Job([program('parking_queries'), '--output', wide, *options], os.path.join(wide, 'index.json'))])
-    driven, options = scenario_files(wide), ['--drives', str(amount.perceived)]
-    yield Step('perceived', 'drives by a sensor', f'{PROGRAMS}perceived_drives wide/*.yaml {" ".join(options)}',
+    driven = [file for file in scenario_files(wide) if os.path.basename(file).startswith(PERCEIVED)]
+    options, named = ['--drives', str(amount.perceived)], 'wide/{' + ','.join(PERCEIVED) + '}*'
+    yield Step('perceived', 'drives by a sensor', f'{PROGRAMS}perceived_drives {named} {" ".join(options)}',
                [Job([program('perceived_drives'), *driven, *options], at('perceived', 'perceived.md'), True, (0, 1))],
                inputs=driven)
     yield Step('checks', 'footprint checks', f'{PROGRAMS}validity_benchmark {shlex.join(amount.checks)}',

@@ -346,9 +346,8 @@ def perceived(evidence, figures):
             'The car knows what a sensor of 20 m has seen. In most drives a box appears in front of it.',
             *(f'`{evidence.steps[step]["command"]}`' for step in ('perceived-queries', 'perceived')),
             markdown(headings, rows),
-            '*Avoidable*: a full brake would have avoided the box, which is known for the first car only. *Time*: relative to a drive '
-            'that knows the world. *Changes of mind*: plans that leave the one before by more than 0.5 m. Times of computing are '
-            'median / 99 % / largest.']
+            '*Avoidable*: by a full brake, known for the first car only. *Time*: relative to a drive that knows the world. *Changes of '
+            'mind*: plans that leave the one before by more than 0.5 m. Times of computing: median / 99 % / largest.']
 
 
 def termination(evidence, figures):
