@@ -362,7 +362,7 @@ namespace parking
             text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
             text += "  driven: " + driveSummary(*result.drive) + "\n";
-        if (result.perceived)
+        if (result.drive && result.perceived)
             text += "  perceived on the way: " + perceptionText(*result.perceived) + "\n";
         if (!result.driveError.empty())
             text += "  not driven: " + result.driveError + "\n";
