@@ -37,10 +37,6 @@ namespace parking
         /** Expansions per gap of a search round extended obstacles, which may close the way to the goal. */
         constexpr std::uint64_t EXPANSIONS_ROUND_EXTENSIONS = 500;
 
-        /** Rounds of optimising a trajectory while the car drives: further ones seldom succeed where the first fails.
-         */
-        constexpr std::size_t ROUNDS_IN_MOTION = 1;
-
         /** Seconds before the last moment to brake at which the car reacts to an obstacle. */
         constexpr double TIME_TO_DECIDE = 1.0;
 
@@ -111,7 +107,7 @@ namespace parking
             Scenario closed = scenario_;
             closed.unknownIsOccupied = true;
             closed_ = ParkingWorld(closed, fclContactTest(), IndexedObstacles::LOCAL_REACH);
-            if (parameters.obstacleExtension == 0.0)
+            if (parameters.unseenIsOccupied || parameters.obstacleExtension == 0.0)
                 return;
             extension_ = std::make_unique<ExtendedObstacles>(seen_->scenario(), parameters.obstacleExtension);
             Scenario extended = scenario_;
@@ -268,9 +264,11 @@ namespace parking
             QuickestTrajectoryOptions options = parameters_.trajectory;
             options.trajectory.initialSteering = std::clamp(steering, -car.maxSteeringAngle, car.maxSteeringAngle);
             options.trajectory.initialSpeed = speed;
-            options.alternatives = options.alternatives && !isReacting_;
             if (isReacting_)
-                options.trajectory.maxRounds = std::min(options.trajectory.maxRounds, ROUNDS_IN_MOTION);
+            {
+                options.alternatives = false;
+                options.trajectory.maxRounds = 1;  // where the first round fails, further ones seldom succeed
+            }
             options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,

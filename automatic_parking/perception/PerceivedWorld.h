@@ -13,7 +13,7 @@ namespace parking
         double cellSize{0.1};          ///< side of the map's cells in metres
         bool unseenIsOccupied{false};  ///< whether ground that has not been seen counts as an obstacle
         /** Metres. Plans expect seen obstacles to continue so far on unseen ground, if a plan exists that can do so
-           (see ExtendedObstacles). */
+           (see ExtendedObstacles). Without effect if unseen ground is occupied. */
         double obstacleExtension{1.0};
 
         /** \brief Throws parking::Error naming the first field out of its range. */

@@ -114,7 +114,7 @@ namespace
         std::string name;
         /** Whether it is known which boxes are avoidable. They appear at a time, when this car may be elsewhere. */
         bool isJudged;
-        std::size_t drives{0}, parked{0}, avoidableHits{0}, otherHits{0}, rolling{0}, stops{0}, motions{0}, changes{0};
+        std::size_t drives{0}, parked{0}, avoidableHits{0}, otherHits{0}, rolling{0}, stops{0}, changes{0};
         Sample ratio, checks, plans;
 
         void add(const ParkingResult &result, const Scenario &scenario, const Surprise *surprise, bool avoidable,
@@ -131,16 +131,13 @@ namespace
             otherHits += touch && !other && !(isJudged && avoidable) ? 1 : 0;
             rolling += !result.trajectory.empty() && result.trajectory.back().v != 0.0 ? 1 : 0;
             changes += changesOfMind(result.history.plans);
-            stops += result.legs.empty() ? 0 : result.legs.size() - 1;
+            stops += reactionFigures(result).stops;
             for (const Reaction &reaction : result.reactions)
             {
-                checks.values.push_back(reaction.updateTime + reaction.checkTime);
-                if (reaction.kind == ReactionKind::Kept)
-                    continue;
-                stops += reaction.kind == ReactionKind::Braked ? 1 : 0;
-                motions += reaction.kind != ReactionKind::Stopped ? 1 : 0;
-                if (reaction.kind != ReactionKind::Stopped)
-                    plans.values.push_back(reaction.updateTime + reaction.checkTime + reaction.planningTime);
+                const double checked = reaction.updateTime + reaction.checkTime;
+                checks.values.push_back(checked);
+                if (reaction.kind != ReactionKind::Kept && reaction.kind != ReactionKind::Stopped)
+                    plans.values.push_back(checked + reaction.planningTime);
             }
             if (!result.parked() || touch)
                 return;
@@ -152,9 +149,10 @@ namespace
         {
             return "| " + name + " | " + std::to_string(drives) + " | " + std::to_string(parked) + " | " +
                    (isJudged ? std::to_string(avoidableHits) : "–") + " | " + std::to_string(otherHits) + " | " +
-                   std::to_string(stops) + " | " + std::to_string(motions) + " | " + std::to_string(changes) + " | " +
-                   formatNumber(ratio.rank(0.5), 3) + " | " + formatNumber(ratio.rank(0.9), 3) + " | " +
-                   checks.inMilliseconds() + " | " + plans.inMilliseconds() + " |\n";
+                   std::to_string(stops) + " | " + std::to_string(plans.values.size()) + " | " +
+                   std::to_string(changes) + " | " + formatNumber(ratio.rank(0.5), 3) + " | " +
+                   formatNumber(ratio.rank(0.9), 3) + " | " + checks.inMilliseconds() + " | " + plans.inMilliseconds() +
+                   " |\n";
         }
     };
 
