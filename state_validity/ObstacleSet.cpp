@@ -228,6 +228,20 @@ namespace parking
         return *derived_;
     }
 
+    std::vector<Polygon> ObstacleSet::solids() const
+    {
+        std::vector<Polygon> solids = polygons();
+        for (const Box &box : rectangles())
+            solids.push_back({box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}});
+        for (Polygon &solid : solids)
+            for (Eigen::Vector2d &corner : solid)
+            {
+                const Pose point = compose(frame(), {corner.x(), corner.y(), 0.0});
+                corner = {point.x, point.y};
+            }
+        return solids;
+    }
+
     std::vector<Edge> ObstacleSet::edgesNear(const Box &box) const
     {
         // One more cell on each side, so that rounding loses none.

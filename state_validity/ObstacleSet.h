@@ -85,6 +85,9 @@ namespace parking
             return derived().rectangles;
         }
 
+        /** \brief All solid polygons and rectangles, in the caller's coordinates. */
+        std::vector<Polygon> solids() const;
+
         /** \brief Side of the cells of a grid world in metres; 0 for a polygon world. */
         double cellSize() const
         {

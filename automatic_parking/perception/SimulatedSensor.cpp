@@ -17,21 +17,6 @@ namespace parking
     {
         constexpr double SLACK = 1e-6;  // of a cell, and of a period
 
-        /** Solid polygons of a world in the coordinates of its scenario. */
-        std::vector<Polygon> solidsOf(const ObstacleSet &obstacles)
-        {
-            std::vector<Polygon> solids = obstacles.polygons();
-            for (const Box &box : obstacles.rectangles())
-                solids.push_back({box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}});
-            for (Polygon &solid : solids)
-                for (Eigen::Vector2d &corner : solid)
-                {
-                    const Pose point = compose(obstacles.frame(), {corner.x(), corner.y(), 0.0});
-                    corner = {point.x, point.y};
-                }
-            return solids;
-        }
-
         bool isSameLayout(const OccupancyGrid &a, const OccupancyGrid &b)
         {
             return a.width() == b.width() && a.height() == b.height() && a.resolution() == b.resolution() &&
@@ -214,7 +199,7 @@ namespace parking
     SimulatedSensor::SimulatedSensor(const Scenario &truth, const SensorParameters &parameters,
                                      const std::vector<TimedObstacle> &timed)
       : parameters_((parameters.validate(), parameters)),
-        solids_(solidsOf(ObstacleSet::fromScenario(truth))),
+        solids_(ObstacleSet::fromScenario(truth).solids()),
         random_(parameters.seed)
     {
         for (std::size_t i = 0; i < timed.size(); ++i)
@@ -223,7 +208,7 @@ namespace parking
             if (!(each.appears < each.disappears))
                 throw Error("timed obstacle " + std::to_string(i + 1) + " appears at " + formatNumber(each.appears) +
                             " s and disappears at " + formatNumber(each.disappears) + " s; the latter must be later");
-            timed_.push_back({each, solidsOf(ObstacleSet::fromPolygons({each.outline}, truth.bounds)), false});
+            timed_.push_back({each, ObstacleSet::fromPolygons({each.outline}, truth.bounds).solids(), false});
         }
     }
 

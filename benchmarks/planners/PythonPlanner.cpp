@@ -48,32 +48,19 @@ namespace parking
 
         json toJson(const Vehicle &car)
         {
-            const auto corners = car.footprint({});
             return {{"wheelbase", car.wheelbase},
                     {"front_overhang", car.frontOverhang},
                     {"rear_overhang", car.rearOverhang},
                     {"width", car.width},
                     {"max_steering_angle", car.maxSteeringAngle},
-                    {"outline", toJson({corners.begin(), corners.end()})}};
+                    {"outline", toJson(car.footprint({}))}};
         }
 
-        /** Corners of all solid obstacles in the coordinates of the space. */
-        json toJson(const ObstacleSet &obstacles)
+        json toJson(const std::vector<Polygon> &polygons)
         {
-            std::vector<Polygon> polygons = obstacles.polygons();
-            for (const Box &box : obstacles.rectangles())
-                polygons.push_back({box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}});
             json list = json::array();
             for (const Polygon &polygon : polygons)
-            {
-                Polygon corners;
-                for (const Eigen::Vector2d &corner : polygon)
-                {
-                    const Pose pose = compose(obstacles.frame(), {corner.x(), corner.y(), 0.0});
-                    corners.emplace_back(pose.x, pose.y);
-                }
-                list.push_back(toJson(corners));
-            }
+                list.push_back(toJson(polygon));
             return list;
         }
 
@@ -241,7 +228,7 @@ namespace parking
                 {"bounds", {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}}},
                 {"vehicle", toJson(footprint.vehicle())},
                 {"turning_radius", footprint.vehicle().minTurningRadius()},
-                {"obstacles", toJson(footprint.obstacles())},
+                {"obstacles", toJson(footprint.obstacles().solids())},
                 {"time_limit", timeLimit_},
                 {"seed", ompl::RNG().uniformInt(0, std::numeric_limits<int>::max() - 1)},
                 {"parameters", parameters_}};

@@ -32,7 +32,13 @@ namespace parking
         const bool isOpen = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0;
         const pid_t process = isOpen ? fork() : -1;
         if (process < 0)
-            throw Error(name_ + " cannot be started: " + std::strerror(errno));
+        {
+            const Error failure(name_ + " cannot be started: " + std::strerror(errno));
+            if (isOpen)
+                for (const int end : ends)
+                    close(end);
+            throw failure;
+        }
         if (process == 0)
         {
             beginChild(self);
